@@ -1,0 +1,364 @@
+"""The beam: what every vibration problem of antinode becomes, and all that the solver needs.
+
+Properties are given on intervals between breakpoints by their values at both ends of the interval
+and vary between them linearly or logarithmically (the axial force always linearly). N > 0 is
+compression; x runs from the left end (the nose) to the right.
+
+A chain of uniform segments represents an interval exactly when nothing varies in it. Elsewhere each
+step is two uniform half-segments whose 1/EI, m and N are averages of the values at the two Gauss
+points with weights 1/2 +- sqrt(3)/3, the larger for the nearer point: fourth order in the step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import InputError
+from .riccati.chain import Chain, Family, Integers
+
+Array = npt.NDArray[np.float64]
+End = Literal["free", "clamped", "pinned", "sliding"]
+AxialEnd = Literal["free", "fixed"]
+Interpolation = Literal["step", "linear", "log"]
+
+_GAUSS = 0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6
+_NEAR, _FAR = 0.5 + np.sqrt(3) / 3, 0.5 - np.sqrt(3) / 3
+_STEEPEST = 4.0  # ratio of a property across one step that still leaves the averages positive
+
+
+@dataclass(frozen=True)
+class Ends:
+    """How the two ends are held, laterally and axially.
+
+    Parameters
+    ----------
+    left, right : {"free", "clamped", "pinned", "sliding"}
+        A pinned end has Y = M = 0, a sliding one theta = Q = 0. Forces at an end keep their
+        direction: at a free end Q = M' + N Y' = 0 (equations 64-65).
+    left_axial, right_axial : {"free", "fixed"}, optional
+        Default: fixed for clamped and pinned ends, else free.
+    """
+
+    left: End = "free"
+    right: End = "free"
+    left_axial: AxialEnd | None = None
+    right_axial: AxialEnd | None = None
+
+    def of(self, family: Family) -> tuple[str, str]:
+        """Return the two ends as the solver names them for a family of modes."""
+        if family == "bending":
+            return self.left, self.right
+        return (
+            self.left_axial or _axial_default(self.left),
+            self.right_axial or _axial_default(self.right),
+        )
+
+
+def _axial_default(end: End) -> AxialEnd:
+    return "fixed" if end in ("clamped", "pinned") else "free"
+
+
+@dataclass(frozen=True)
+class Beam:
+    """A straight non-uniform Euler-Bernoulli beam under static axial force.
+
+    Parameters
+    ----------
+    x : array, shape (n + 1,)
+        Breakpoints from left to right [m].
+    mass_per_length, bending_stiffness : array, shape (n, 2)
+        m [kg/m] and EI [N m^2] at the left and right end of every interval, positive.
+    axial_stiffness : array, shape (n, 2), optional
+        EA [N]; without it there are no longitudinal modes.
+    axial_force : array, shape (n, 2), optional
+        N [N], compression positive, linear in each interval; zero by default.
+    axial_acceleration : float
+        a [m/s^2] adds ``a * (mass left of x)`` to N: the inertia of a body that accelerates
+        towards -x, or weight that acts towards +x.
+    interpolation : {"step", "linear", "log"}
+        How m, EI, EA vary between the two values of an interval ("step": they are equal).
+    ends : Ends
+    radius_of_gyration : array, shape (n, 2), optional
+        Of the cross-section [m], for the estimate of shear and rotary inertia only; by default
+        sqrt(EI/EA).
+    name : str
+
+    Raises
+    ------
+    InputError
+        If shapes disagree, breakpoints do not increase, or a property is not positive and finite.
+    """
+
+    x: Array
+    mass_per_length: Array
+    bending_stiffness: Array
+    axial_stiffness: Array | None = None
+    axial_force: Array = field(default_factory=lambda: np.zeros(0))
+    axial_acceleration: float = 0.0
+    interpolation: Interpolation = "step"
+    ends: Ends = Ends()
+    radius_of_gyration: Array | None = None
+    name: str = "beam"
+
+    def __post_init__(self) -> None:
+        if not len(self.axial_force):
+            object.__setattr__(self, "axial_force", np.zeros((len(self.x) - 1, 2)))
+        _check(self)
+
+    @classmethod
+    def from_stations(
+        cls,
+        x: npt.ArrayLike,
+        mass_per_length: npt.ArrayLike,
+        bending_stiffness: npt.ArrayLike,
+        axial_stiffness: npt.ArrayLike | None = None,
+        axial_force: npt.ArrayLike | None = None,
+        *,
+        interpolation: Interpolation = "step",
+        ends: Ends | None = None,
+        radius_of_gyration: npt.ArrayLike | None = None,
+        name: str = "beam",
+    ) -> Beam:
+        """Build a beam from values at stations.
+
+        Parameters
+        ----------
+        x : array_like, shape (n + 1,)
+            Stations [m].
+        mass_per_length, bending_stiffness, axial_stiffness, axial_force, radius_of_gyration
+            Values at the stations, shape (n + 1,) [kg/m, N m^2, N, N, m]. With "step" row k holds
+            from x_k to x_k+1 and the last row only closes the table (shape (n,) is accepted too).
+        interpolation : {"step", "linear", "log"}
+        ends : Ends
+        name : str
+        """
+        stations = np.asarray(x, dtype=float)
+        intervals = len(stations) - 1
+
+        def between(values: npt.ArrayLike | None) -> Array | None:
+            if values is None:
+                return None
+            column = np.broadcast_to(np.asarray(values, dtype=float), _row_shape(values, stations))
+            if interpolation == "step":
+                return np.repeat(column[:intervals, None], 2, axis=1)
+            return np.stack([column[:-1], column[1:]], axis=1)
+
+        m, EI, EA, N, r = (
+            between(v)
+            for v in (
+                mass_per_length,
+                bending_stiffness,
+                axial_stiffness,
+                axial_force,
+                radius_of_gyration,
+            )
+        )
+        assert m is not None
+        assert EI is not None
+        return cls(
+            stations,
+            m,
+            EI,
+            EA,
+            N if N is not None else np.zeros(0),
+            interpolation=interpolation,
+            ends=ends or Ends(),
+            radius_of_gyration=r,
+            name=name,
+        )
+
+    @property
+    def length(self) -> float:
+        """Length [m]."""
+        return float(self.x[-1] - self.x[0])
+
+    @cached_property
+    def mass(self) -> float:
+        """Total mass [kg]."""
+        return float(self.mass_left[-1])
+
+    @cached_property
+    def mass_left(self) -> Array:
+        """Mass left of every breakpoint [kg], shape (n + 1,)."""
+        whole = _partial_mass(self, np.arange(len(self.x) - 1), np.ones(len(self.x) - 1))
+        return np.concatenate([[0.0], np.cumsum(whole)])
+
+    @cached_property
+    def moment_of_inertia(self) -> float:
+        """Moment of inertia about the centre of mass, of the line masses [kg m^2]."""
+        points, weights = np.polynomial.legendre.leggauss(8)
+        k = np.arange(len(self.x) - 1)[:, None]
+        t = (points + 1) / 2
+        dm = self.at(self.mass_per_length, k, t) * np.diff(self.x)[:, None] * weights / 2
+        x = self.x[:-1, None] + np.diff(self.x)[:, None] * t
+        centre = np.sum(dm * x) / np.sum(dm)
+        return float(np.sum(dm * (x - centre) ** 2))
+
+    def at(self, values: Array, interval: Integers, fraction: Array) -> Array:
+        """Interpolate a property inside intervals, at fractions 0 ... 1 of their lengths."""
+        a, b = values[interval, 0], values[interval, 1]
+        if self.interpolation == "log":
+            return np.asarray(a * (b / a) ** fraction)
+        return np.asarray(a + (b - a) * fraction)
+
+    def axial_force_at(self, interval: Integers, fraction: Array) -> Array:
+        """Return N [N] inside intervals, at fractions 0 ... 1 of their lengths."""
+        table = self.axial_force[interval]
+        N = table[..., 0] + (table[..., 1] - table[..., 0]) * fraction
+        if self.axial_acceleration == 0.0:
+            return np.asarray(N)
+        left = self.mass_left[interval] + _partial_mass(self, interval, fraction)
+        return np.asarray(N + self.axial_acceleration * left)
+
+    @cached_property
+    def is_unloaded(self) -> bool:
+        """Whether no axial force acts anywhere."""
+        return self.axial_acceleration == 0.0 and not np.any(self.axial_force)
+
+    def without_axial_force(self) -> Beam:
+        """Return the same beam with N = 0 everywhere."""
+        return replace(self, axial_force=np.zeros_like(self.axial_force), axial_acceleration=0.0)
+
+    def reversed(self) -> Beam:
+        """Return the beam read from the other end (acceleration becomes part of the table)."""
+        if self.axial_acceleration:
+            raise InputError("a beam under acceleration cannot be reversed: tabulate N(x) instead")
+        flip: dict[str, Any] = {
+            name: None if (v := getattr(self, name)) is None else v[::-1, ::-1].copy()
+            for name in _TABLES
+        }
+        e = self.ends
+        ends = Ends(e.right, e.left, e.right_axial, e.left_axial)
+        return replace(self, x=self.x[-1] + self.x[0] - self.x[::-1], ends=ends, **flip)
+
+    def varies(self, family: Family) -> npt.NDArray[np.bool_]:
+        """Tell for each interval whether anything that the family sees varies inside it."""
+        tables = [self.mass_per_length]
+        if family == "longitudinal":
+            tables.append(_given(self.axial_stiffness))
+            return np.asarray(np.any([t[:, 0] != t[:, 1] for t in tables], axis=0))
+        tables += [self.bending_stiffness, self.axial_force]
+        varying = np.any([t[:, 0] != t[:, 1] for t in tables], axis=0)
+        return np.asarray(varying | (self.axial_acceleration != 0.0))
+
+    def chain(self, family: Family, refinement: int = 1) -> Chain:
+        """Represent the beam by uniform segments for one family of modes.
+
+        Parameters
+        ----------
+        family : {"bending", "longitudinal"}
+        refinement : int
+            Number by which the steps of the coarsest representation are divided; intervals in
+            which nothing varies stay whole: they are exact.
+
+        Returns
+        -------
+        Chain
+        """
+        varies = self.varies(family)
+        steps = np.where(varies, _coarsest_steps(self) * refinement, 1)
+        interval, which = _copies(steps)
+        size = 1.0 / steps[interval]
+        start, length = which * size, np.diff(self.x)[interval] * size
+        halves = np.where(varies[interval], 2, 1)
+        step, second = _copies(halves)
+        nearer = np.where(second == 1, _FAR, _NEAR)  # weight of the first Gauss point
+
+        def average(values: Callable[[Integers, Array], Array]) -> Array:
+            first, last = (values(interval, start + size * g)[step] for g in _GAUSS)
+            return np.asarray(nearer * first + (1 - nearer) * last)
+
+        stiffness = self.bending_stiffness if family == "bending" else _given(self.axial_stiffness)
+        left, right = self.ends.of(family)
+        return Chain(
+            length=(length / halves)[step],
+            mass=average(lambda k, t: self.at(self.mass_per_length, k, t)),
+            stiffness=1.0 / average(lambda k, t: 1.0 / self.at(stiffness, k, t)),
+            axial_force=average(self.axial_force_at),
+            left=left,
+            right=right,
+            family=family,
+        )
+
+
+def _copies(times: Integers) -> tuple[Integers, Integers]:
+    """Return, for entry k repeated ``times[k]`` times, every copy's k and its number from 0."""
+    index = np.repeat(np.arange(len(times)), times)
+    return index, np.arange(len(index)) - (np.cumsum(times) - times)[index]
+
+
+_TABLES = (
+    "mass_per_length",
+    "bending_stiffness",
+    "axial_stiffness",
+    "axial_force",
+    "radius_of_gyration",
+)
+
+
+def _row_shape(values: npt.ArrayLike, stations: Array) -> tuple[int, ...]:
+    shape = np.shape(values)
+    return (len(stations),) if shape == () else shape
+
+
+def _given(values: Array | None) -> Array:
+    if values is None:
+        raise InputError("axial_stiffness is missing: longitudinal modes need EA [N]")
+    return values
+
+
+def _partial_mass(beam: Beam, interval: Integers, fraction: Array) -> Array:
+    """Return the mass between the left end of an interval and a fraction of it [kg]."""
+    a, b = beam.mass_per_length[interval, 0], beam.mass_per_length[interval, 1]
+    h = np.diff(beam.x)[interval] * fraction
+    if beam.interpolation == "log":
+        rate = np.log(b / a) * fraction
+        mean = np.where(np.abs(rate) > 1e-12, np.expm1(rate) / np.where(rate == 0, 1, rate), 1.0)
+        return np.asarray(a * h * mean)
+    return np.asarray(h * (a + (b - a) * fraction / 2))
+
+
+def _coarsest_steps(beam: Beam) -> Integers:
+    """Return into how many steps each interval is divided at the least."""
+    by_length = np.diff(beam.x) / (beam.length / 24)
+    tables = [beam.mass_per_length, beam.bending_stiffness]
+    if beam.axial_stiffness is not None:
+        tables.append(beam.axial_stiffness)
+    steepness = np.max([np.abs(np.log(t[:, 1] / t[:, 0])) for t in tables], axis=0)
+    by_ratio = steepness / np.log(_STEEPEST)
+    if beam.interpolation == "linear":  # the ratio across equal steps is largest at the small end
+        by_ratio = np.expm1(steepness) / (_STEEPEST - 1)
+    steps: Integers = np.maximum(np.ceil(np.maximum(by_length, by_ratio)), 1).astype(np.int64)
+    return steps
+
+
+def _check(beam: Beam) -> None:
+    n = len(beam.x) - 1
+    if n < 1:
+        raise InputError(f"a beam needs at least two breakpoints x; received {n + 1}")
+    if not np.all(np.isfinite(beam.x)):
+        raise InputError("x: every breakpoint must be a finite number [m]")
+    for k in np.flatnonzero(np.diff(beam.x) <= 0)[:1]:
+        raise InputError(
+            f"x must increase from row to row: row {k + 2} has {beam.x[k + 1]:g} m "
+            f"after {beam.x[k]:g} m in row {k + 1}"
+        )
+    for name in _TABLES:
+        values = getattr(beam, name)
+        if values is not None:
+            _check_table(name, values, n)
+
+
+def _check_table(name: str, values: Array, n: int) -> None:
+    if values.shape != (n, 2):
+        raise InputError(f"{name} has shape {values.shape}; {n} intervals need shape ({n}, 2)")
+    ok = np.isfinite(values) if name == "axial_force" else np.isfinite(values) & (values > 0)
+    for row, side in np.argwhere(~ok)[:1]:
+        allowed = "finite" if name == "axial_force" else "positive and finite"
+        raise InputError(f"{name} must be {allowed}: interval {row + 1} has {values[row, side]:g}")

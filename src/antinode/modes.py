@@ -1,0 +1,430 @@
+"""Natural frequencies and modes of a beam: certified, named, with error bounds and shapes.
+
+    result = solve_modes(beam, modes=6)
+
+Bending and longitudinal vibration are solved apart. Rigid modes are set aside by their index among
+the eigenvalues, never because they look small; the others are numbered 1, 2, ... in order of
+omega^2, whatever its sign.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from .beam import Beam
+from .errors import ComputationError, InputError
+from .result import Kind, Method, ModalResult, Mode, Normalisation
+from .riccati.chain import Chain, Family, omega2_scale
+from .riccati.literal import find_eigenvalues_tmm
+from .riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
+from .riccati.shapes import Squares, integrate_squares, mode_states
+
+Array = npt.NDArray[np.float64]
+FAMILIES: tuple[Family, ...] = ("bending", "longitudinal")
+_ROUNDING = 64 * np.finfo(float).eps  # times the conditioning of an eigenvalue
+_MOST_SEGMENTS = 100_000
+_MODEL_LIMIT = 0.02
+
+
+class HasBeam(Protocol):
+    """Anything that can be turned into a beam, such as a case of a vehicle in a condition."""
+
+    def beam(self) -> Beam:
+        """Return the beam."""
+        ...
+
+
+def solve_modes(
+    problem: Beam | HasBeam,
+    modes: int = 6,
+    *,
+    tolerance: float = 1e-6,
+    families: Sequence[Family] | None = None,
+    method: Method = "riccati",
+    normalisation: Normalisation = "amplitude",
+    unloaded: bool = False,
+) -> ModalResult:
+    """Compute natural frequencies, modes and internal-force modes of a beam.
+
+    Parameters
+    ----------
+    problem : Beam or case
+        A beam, or anything with a method ``beam()``.
+    modes : int
+        Elastic modes 1 ... `modes` of each family; rigid and divergent ones always come along.
+    tolerance : float
+        Largest relative error of a frequency that is allowed to what varies inside segments.
+    families : sequence of {"bending", "longitudinal"}, optional
+        Default: both, or bending alone where the beam has no axial stiffness.
+    method : {"riccati", "tmm"}
+        "tmm" scans the determinant of equation 66 instead: for comparison, without a certificate.
+    normalisation : {"amplitude", "mass"}
+        Largest displacement 1, or unit modal mass.
+    unloaded : bool
+        Also solve the beam without axial force, to tell what the force does to each mode.
+
+    Returns
+    -------
+    ModalResult
+
+    Raises
+    ------
+    InputError
+        If an argument is outside its range.
+    ComputationError
+        If the eigenvalues could not be bracketed.
+    """
+    if not 1 <= modes <= 500:
+        raise InputError(f"modes is {modes}; allowed are 1 ... 500 for each family")
+    if not 1e-12 <= tolerance <= 0.1:
+        raise InputError(f"tolerance is {tolerance:g}; allowed are 1e-12 ... 0.1 (relative)")
+    beam = problem if isinstance(problem, Beam) else problem.beam()
+    chosen = families or (FAMILIES if beam.axial_stiffness is not None else FAMILIES[:1])
+    grid = _output_grid(beam, modes)
+    found: list[Mode] = []
+    segments: dict[str, int] = {}
+    warnings: list[str] = []
+    for family in chosen:
+        solved = _solve_family(beam, family, modes, tolerance, method)
+        found += _modes_of(beam, solved, grid, modes, normalisation)
+        segments[family] = len(solved.chain.length)
+        warnings += solved.warnings
+    if unloaded:
+        found = _compare_unloaded(beam, found, modes, tolerance)
+    warnings += _result_warnings(beam, found)
+    return ModalResult(
+        beam, tuple(found), grid, method, tolerance, normalisation, segments, tuple(warnings)
+    )
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """Eigenvalues of one family on the finest chain, with the error of the representation."""
+
+    chain: Chain
+    eigenvalues: list[Eigenvalue]
+    discretisation: Array
+    warnings: list[str]
+
+
+def rigid_modes(beam: Beam, family: Family) -> tuple[str, ...]:
+    """Return the names of the rigid modes that the supports leave, e.g. translation, rotation."""
+    left, right = beam.ends.of(family)
+    if family == "longitudinal":
+        return ("translation",) if left == right == "free" else ()
+    held = {"free": 0, "sliding": 1, "pinned": 2, "clamped": 3}
+    worst = sorted((left, right), key=held.__getitem__)
+    if worst == ["free", "free"]:
+        return "translation", "rotation"
+    if worst in (["free", "sliding"], ["sliding", "sliding"]):
+        return ("translation",)
+    return ("rotation",) if worst == ["free", "pinned"] else ()
+
+
+def exact_zeros(beam: Beam, family: Family) -> int:
+    """Return how many rigid modes have omega^2 = 0 exactly: translation, and all without N."""
+    rigid = rigid_modes(beam, family)
+    if family == "bending" and not beam.is_unloaded:
+        return int("translation" in rigid)
+    return len(rigid)
+
+
+def _solve_family(
+    beam: Beam, family: Family, modes: int, tolerance: float, method: Method
+) -> _Solved:
+    """Refine until the estimated error of every wanted frequency is within the tolerance."""
+    wanted = modes + len(rigid_modes(beam, family))
+    zeros = exact_zeros(beam, family)
+    chain = beam.chain(family)
+    eigenvalues = _certified(chain, wanted, zeros)
+    error = np.zeros(len(eigenvalues))
+    warnings: list[str] = []
+    refinement = 1
+    while np.any(beam.varies(family)):
+        refinement *= 2
+        finer = beam.chain(family, refinement)
+        coarse, eigenvalues = eigenvalues, _certified(finer, wanted, zeros)
+        chain, error = finer, _discretisation_error(coarse, eigenvalues)
+        if np.all(_relative_error(eigenvalues, error, wanted) <= tolerance):
+            break
+        if 2 * len(chain.length) > _MOST_SEGMENTS:
+            warnings.append(
+                f"{family}: {len(chain.length)} segments do not reach the tolerance "
+                f"{tolerance:g}; see the errors, or ask for fewer modes or a larger tolerance"
+            )
+            break
+    if method == "tmm":
+        eigenvalues, error, more = _by_tmm(chain, eigenvalues, error, zeros)
+        warnings += more
+    return _Solved(chain, eigenvalues, error, warnings)
+
+
+def _certified(chain: Chain, wanted: int, zeros: int) -> list[Eigenvalue]:
+    width = 1e-10 if len(chain.length) <= 1000 else 2e-10
+    try:
+        found = find_eigenvalues(chain, wanted, zeros=zeros, width=width)
+    except (CountingError, FloatingPointError) as error:
+        raise ComputationError(
+            f"the {chain.family} eigenvalues could not be certified: {error}; "
+            "check stiffness, mass and axial force for values of a wrong unit"
+        ) from error
+    if not check_certificate(found):
+        raise ComputationError(f"the counts of the {chain.family} modes contradict each other")
+    return found
+
+
+def _discretisation_error(coarse: list[Eigenvalue], fine: list[Eigenvalue]) -> Array:
+    """Estimate the error of the finer omega^2 from two fourth-order solutions (ratio 16)."""
+    pairs = zip(coarse, fine, strict=False)
+    error = [abs(a.omega2 - b.omega2) / 8 for a, b in pairs]
+    return np.array(error + [max(error, default=0.0)] * (len(fine) - len(error)))
+
+
+def _relative_error(eigenvalues: list[Eigenvalue], error: Array, wanted: int) -> Array:
+    """Return the error of each frequency relative to it (to the largest, where near zero)."""
+    size = np.abs([value.omega2 for value in eigenvalues])
+    return np.asarray(error[:wanted] / 2 / np.maximum(size, 1e-6 * np.max(size))[:wanted])
+
+
+def _by_tmm(
+    chain: Chain, certified: list[Eigenvalue], error: Array, zeros: int
+) -> tuple[list[Eigenvalue], Array, list[str]]:
+    """Replace certified eigenvalues by those of the transfer matrix method, and compare."""
+    lowest, highest = certified[0].omega2, certified[-1].omega2
+    below = min(1.5 * lowest, -1e-3 * abs(highest))
+    found = find_eigenvalues_tmm(
+        chain, len(certified), below=below, above=1.1 * abs(highest), zeros=zeros
+    )
+    steps = sum(e.counts == (e.index - 1, e.index) or e.omega2 == 0.0 for e in found)
+    warnings = []
+    if steps < len(certified):
+        warnings.append(
+            f"{chain.family}: the transfer matrix scan confirms {steps} of "
+            f"{len(certified)} eigenvalues; use the default method for a certified list"
+        )
+    if not found:
+        raise ComputationError(f"the transfer matrix scan found no {chain.family} mode")
+    return found, np.resize(error, len(found)), warnings
+
+
+def _output_grid(beam: Beam, modes: int) -> Array:
+    """Return breakpoints and points between, dense enough for smooth shapes [m]."""
+    spacing = beam.length / max(200, 20 * (modes + 2))
+    pieces = np.ceil(np.diff(beam.x) / spacing).astype(int)
+    parts = [
+        np.linspace(a, b, n, endpoint=False)
+        for a, b, n in zip(beam.x[:-1], beam.x[1:], pieces, strict=True)
+    ]
+    return np.append(np.concatenate(parts), beam.x[-1])
+
+
+def _modes_of(
+    beam: Beam, solved: _Solved, grid: Array, modes: int, normalisation: Normalisation
+) -> list[Mode]:
+    """Name the eigenvalues, attach shapes and everything that follows from them."""
+    family = solved.chain.family
+    names = _names(beam, family, solved.eigenvalues)
+    keep = [
+        k
+        for k, (value, (_, number)) in enumerate(zip(solved.eigenvalues, names, strict=True))
+        if number <= modes or value.omega2 < 0
+    ]
+    chain = solved.chain.cut_at(grid - grid[0])
+    omega2 = np.array([solved.eigenvalues[k].omega2 for k in keep])
+    states = _shapes(beam, chain, solved.eigenvalues, keep, names)
+    squares = integrate_squares(chain, states, omega2)
+    scale = _normalising_factors(chain, states, squares, normalisation)
+    at_grid = np.searchsorted(chain.nodes, grid - grid[0] - 1e-9 * beam.length)
+    rows = []
+    for column, k in enumerate(keep):
+        one = Squares(*(part[:, column] * scale[column] ** 2 for part in squares))
+        name, number = names[k]
+        shape = states[at_grid, column] * scale[column]
+        rows.append(_mode(beam, chain, solved, k, name, number, shape, one))
+    return rows
+
+
+def _names(beam: Beam, family: Family, eigenvalues: list[Eigenvalue]) -> list[tuple[str, int]]:
+    """Return name and number of each eigenvalue, rigid modes set aside by index."""
+    rigid = list(rigid_modes(beam, family))
+    names: list[tuple[str, int] | None] = [None] * len(eigenvalues)
+    zeros = [k for k, value in enumerate(eigenvalues) if value.omega2 == 0.0]
+    for k, name in zip(zeros, rigid[: exact_zeros(beam, family)], strict=False):
+        names[k] = (f"rigid {name}", 0)
+        rigid.remove(name)
+    for name in rigid:  # a rotation that the axial force moves off zero is the lowest of the rest
+        names[names.index(None)] = (f"rigid {name}", 0)
+    number = 0
+    for k, given in enumerate(names):
+        if given is None:
+            number += 1
+            names[k] = (f"{family} {number}", number)
+    return [name for name in names if name is not None]
+
+
+def _shapes(
+    beam: Beam,
+    chain: Chain,
+    eigenvalues: list[Eigenvalue],
+    keep: list[int],
+    names: list[tuple[str, int]],
+) -> Array:
+    """Return the states of the kept modes at all nodes; rigid modes at omega^2 = 0 are known."""
+    size = 4 if chain.family == "bending" else 2
+    states = np.zeros((len(chain.length) + 1, len(keep), size))
+    free = [c for c, k in enumerate(keep) if eigenvalues[k].omega2 != 0.0 or names[k][1] > 0]
+    for c in set(range(len(keep))) - set(free):
+        states[:, c] = _rigid_state(beam, chain, names[keep[c]][0])
+    if free:
+        omega2 = np.array([eigenvalues[keep[c]].omega2 for c in free])
+        clusters = np.array(
+            [
+                sum(eigenvalues[keep[o]].bracket == eigenvalues[keep[c]].bracket for o in free)
+                for c in free
+            ]
+        )
+        states[:, free] = mode_states(chain, omega2, clusters)
+    return states
+
+
+def _rigid_state(beam: Beam, chain: Chain, name: str) -> Array:
+    """Return the state of a rigid mode at omega^2 = 0, shape (nodes, s)."""
+    state = np.zeros((len(chain.length) + 1, 4 if chain.family == "bending" else 2))
+    if name == "rigid translation":
+        state[:, 0] = 1.0
+        return state
+    middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2
+    dm = chain.mass * chain.length
+    pivot = float(np.sum(dm * middle) / np.sum(dm))
+    if beam.ends.left == "pinned" or beam.ends.right == "pinned":
+        pivot = 0.0 if beam.ends.left == "pinned" else float(chain.nodes[-1])
+    state[:, 0], state[:, 1] = chain.nodes - pivot, 1.0
+    return state
+
+
+def _normalising_factors(
+    chain: Chain, states: Array, squares: Squares, normalisation: Normalisation
+) -> Array:
+    """Return the factor for each mode: size as asked, first extremum from the nose positive."""
+    displacement = states[..., 0]
+    sign = np.array([_first_extremum_sign(column) for column in displacement.T])
+    if normalisation == "mass":
+        size = np.sqrt(chain.mass @ squares.displacement)
+    else:
+        size = np.max(np.abs(displacement), axis=0)
+    return sign / size
+
+
+def _first_extremum_sign(y: Array) -> float:
+    """Return the sign of the first local maximum of abs(y), ends included."""
+    size = np.abs(y) / np.max(np.abs(y))
+    rises = np.concatenate([[True], size[1:] >= size[:-1]])
+    falls = np.concatenate([size[:-1] >= size[1:], [True]])
+    first = np.flatnonzero(rises & falls & (size > 1e-3))[0]
+    return 1.0 if y[first] >= 0 else -1.0
+
+
+def _mode(
+    beam: Beam,
+    chain: Chain,
+    solved: _Solved,
+    k: int,
+    name: str,
+    number: int,
+    shape: Array,
+    squares: Squares,
+) -> Mode:
+    value, family = solved.eigenvalues[k], chain.family
+    mass = float(chain.mass @ squares.displacement)
+    strain = float(np.sum(squares.moment / chain.stiffness))
+    work = float(chain.axial_force @ squares.slope) if family == "bending" else 0.0
+    size = strain + float(np.abs(chain.axial_force) @ squares.slope)
+    half = max(value.omega2 - value.bracket[0], value.bracket[1] - value.omega2)
+    exact = value.omega2 == 0.0 and number == 0
+    error = 0.0 if exact else half + _ROUNDING * size / mass + float(solved.discretisation[k])
+    quotient = (strain - work) / mass
+    reference = max(abs(value.omega2), 1e-9 * omega2_scale(chain))
+    kind: Kind = "divergent" if value.omega2 < 0 else "elastic" if number else "rigid"
+    return Mode(
+        family=family,
+        number=number,
+        name=name,
+        kind=kind,
+        omega2=value.omega2,
+        bracket_omega2=value.bracket,
+        counts=value.counts,
+        error_omega2=error,
+        modal_mass=mass,
+        residual=0.0 if exact else abs(quotient - value.omega2) / reference,
+        model_error=_model_error(beam, chain, value.omega2, squares, mass) if number else None,
+        states=shape,
+    )
+
+
+def _model_error(
+    beam: Beam, chain: Chain, omega2: float, squares: Squares, mass: float
+) -> float | None:
+    """Return the first-order effect of rotary inertia and shear on a frequency, relative.
+
+    ``-1/2 [int m r^2 theta^2 + int M'^2/(kGA) / omega^2] / int m Y^2``, with the shear stiffness
+    kGA = EA / (4 (1 + nu)) of a thin-walled tube, nu = 0.3.
+    """
+    if chain.family != "bending" or omega2 <= 0 or beam.axial_stiffness is None:
+        return None
+    middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2 + beam.x[0]
+    k = np.clip(np.searchsorted(beam.x, middle) - 1, 0, len(beam.x) - 2)
+    t = (middle - beam.x[k]) / np.diff(beam.x)[k]
+    EA = beam.at(beam.axial_stiffness, k, t)
+    if beam.radius_of_gyration is not None:
+        r2 = beam.at(beam.radius_of_gyration, k, t) ** 2
+    else:
+        r2 = chain.stiffness / EA
+    kGA = EA / (4 * 1.3)
+    rotary = float((chain.mass * r2) @ squares.slope)
+    shear = float(np.sum(squares.shear / kGA)) / omega2
+    return -(rotary + shear) / mass / 2
+
+
+def _compare_unloaded(beam: Beam, found: list[Mode], modes: int, tolerance: float) -> list[Mode]:
+    """Attach to every bending mode its omega^2 without axial force."""
+    most = max((m.number for m in found if m.family == "bending"), default=0)
+    if most == 0:
+        return found
+    free = beam.without_axial_force()
+    solved = _solve_family(free, "bending", max(modes, most), tolerance, "riccati")
+    names = _names(free, "bending", solved.eigenvalues)
+    omega2 = {
+        name: value.omega2 for (name, _), value in zip(names, solved.eigenvalues, strict=True)
+    }
+    return [
+        replace(m, unloaded_omega2=omega2.get(m.name) if m.family == "bending" else m.omega2)
+        for m in found
+    ]
+
+
+def _result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
+    warnings = []
+    divergent = [m.name for m in modes if m.kind == "divergent" and m.number]
+    if divergent:
+        warnings.append(
+            f"{', '.join(divergent)}: omega^2 < 0, the axial compression is past buckling; "
+            "the motion grows instead of vibrating: reduce the compression or stiffen the beam"
+        )
+    if any(m.kind == "divergent" and not m.number for m in modes):
+        warnings.append(
+            "rigid rotation is divergent (omega^2 < 0), as for every free body in net compression "
+            "by forces of fixed direction; control of the attitude is outside this model"
+        )
+    errors = [(m.name, m.model_error) for m in modes if m.model_error is not None]
+    large = [name for name, error in errors if abs(error) > _MODEL_LIMIT]
+    if large:
+        warnings.append(
+            f"{large[0]} and above: shear and rotary inertia, which the model leaves out, lower "
+            f"the frequency by more than {_MODEL_LIMIT:.0%}; use a Timoshenko model there"
+        )
+    return warnings

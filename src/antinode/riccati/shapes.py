@@ -1,0 +1,301 @@
+"""Mode shapes with their internal forces along a chain, and integrals of their squares (eq. 81).
+
+At an eigenvalue the frames carried from the two ends share a state. They are matched at the node
+where they come closest (where the mode is large), and the state is carried outwards by the changes
+of basis of the two sweeps. These shrink where solutions grow, so that nothing is lost on long
+chains or for modes that live at one end, where equation 81 taken literally drowns in the growing
+solution.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .chain import (
+    Array,
+    Chain,
+    Integers,
+    Sweep,
+    block_starts,
+    end_frame,
+    largest_wave_number,
+    multiply_groups,
+    segment_transfers,
+    split_long,
+    state_units,
+    sweep,
+)
+
+_CANDIDATE_NODES = 12  # matching nodes tried for a cluster of modes
+
+
+def symplectic_form(size: int) -> Array:
+    """Return J with ``U^T J U = J`` for every transfer matrix; ``J^-1 = -J``."""
+    if size == 2:
+        return np.array([[0.0, 1.0], [-1.0, 0.0]])
+    J = np.zeros((4, 4))
+    J[0, 3], J[3, 0], J[1, 2], J[2, 1] = -1.0, 1.0, 1.0, -1.0
+    return J
+
+
+class Matching(NamedTuple):
+    """Both sweeps, and how far their frames are from sharing a state at every block boundary."""
+
+    left: Sweep
+    right: Sweep
+    gap: Array
+    """Smallest singular value of the symplectic product of the frames, (blocks + 1, lanes)."""
+    state: Array
+    """The state closest to both frames, of norm one, (blocks + 1, lanes, s)."""
+
+
+def match(chain: Chain, U: Array) -> Matching:
+    """Sweep from both ends through the blocks `U` and compare the frames."""
+    lanes, size = U.shape[1], U.shape[-1]
+    J = symplectic_form(size)
+    left = sweep(U, end_frame(chain, chain.left, lanes))
+    inverse = -J @ np.swapaxes(U, -1, -2) @ J
+    back = sweep(inverse[::-1], end_frame(chain, chain.right, lanes))
+    right = Sweep(back.F[::-1], back.R[::-1])
+    product = np.swapaxes(left.F, -1, -2) @ J @ right.F
+    gap, null = _smallest_singular(product)
+    return Matching(left, right, gap, np.einsum("...sd,...d->...s", right.F, null))
+
+
+def _smallest_singular(C: Array) -> tuple[Array, Array]:
+    """Return the smallest singular value of 1x1 or 2x2 matrices, and its right vector."""
+    if C.shape[-1] == 1:
+        return np.abs(C[..., 0, 0]), np.ones(C.shape[:-1])
+    norms = np.einsum("...ij,...ij->...i", C, C)
+    row = np.take_along_axis(C, np.argmax(norms, axis=-1)[..., None, None], axis=-2)[..., 0, :]
+    null = np.stack([row[..., 1], -row[..., 0]], axis=-1)
+    length = np.linalg.norm(null, axis=-1, keepdims=True)
+    null = np.where(length > 0, null / np.where(length > 0, length, 1.0), np.array([1.0, 0.0]))
+    determinant = C[..., 0, 0] * C[..., 1, 1] - C[..., 0, 1] * C[..., 1, 0]
+    return np.abs(determinant) / np.sqrt(np.maximum(norms.sum(-1), 1e-300)), null
+
+
+def carry_outwards(left: Sweep, right: Sweep, node: Integers, state: Array) -> Array:
+    """Return the states at all block boundaries, given the one at a node of each lane.
+
+    Parameters
+    ----------
+    left, right : Sweep
+        From either end.
+    node : array of int, shape (lanes,)
+    state : array, shape (lanes, s)
+
+    Returns
+    -------
+    array, shape (blocks + 1, lanes, s)
+    """
+    (F, R), (G, S) = left, right
+    z = np.zeros(F.shape[:-1])
+    last = len(F) - 1
+    for here, frames, change, order in (
+        (node, F, R, range(last, -1, -1)),
+        (node, G, S, range(last + 1)),
+    ):
+        start = np.einsum("lsd,ls->ld", frames[node, np.arange(len(node))], state)
+        coefficients = np.zeros_like(start)
+        step = 1 if order.step < 0 else -1
+        for i in order:
+            inside = 0 <= i + step <= last
+            if inside:
+                coefficients = _solve_upper(change[i + step], coefficients)
+            coefficients = np.where((here == i)[:, None], start, coefficients)
+            reached = (i <= node) if step == 1 else (i >= node)
+            value = np.einsum("lsd,ld->ls", frames[i], coefficients)
+            z[i] = np.where(reached[:, None], value, z[i])
+    return z
+
+
+def _solve_upper(R: Array, b: Array) -> Array:
+    """Solve ``R x = b`` for one or two unknowns, R upper triangular."""
+    x = np.empty_like(b)
+    x[:, -1] = b[:, -1] / R[:, -1, -1]
+    if b.shape[-1] == 2:
+        x[:, 0] = (b[:, 0] - R[:, 0, 1] * x[:, 1]) / R[:, 0, 0]
+    return x
+
+
+def fill_blocks(z: Array, U: Array, starts: Integers) -> Array:
+    """Carry the states at block boundaries through the segments of each block.
+
+    Parameters
+    ----------
+    z : array, shape (blocks + 1, lanes, s)
+    U : array, shape (n, lanes, s, s)
+        Transfer matrices of the segments.
+    starts : array of int, shape (blocks,)
+
+    Returns
+    -------
+    array, shape (n + 1, lanes, s)
+    """
+    states = np.empty((len(U) + 1, *z.shape[1:]))
+    states[np.append(starts, len(U))] = z
+    sizes = np.diff(starts, append=len(U))
+    for position in range(1, int(sizes.max())):
+        here = starts[sizes > position] + position
+        states[here] = np.einsum("nlij,nlj->nli", U[here - 1], states[here - 1])
+    return states
+
+
+def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
+    """Return the states of the modes at every node of the chain.
+
+    Parameters
+    ----------
+    chain : Chain
+    omega2 : array, shape (k,)
+        Eigenvalues [rad^2/s^2], ascending.
+    multiplicity : array of int, shape (k,)
+        Size of the cluster each belongs to; its members follow each other.
+
+    Returns
+    -------
+    array, shape (n + 1, k, s)
+        ``[Y, theta, M, Q]`` or ``[X, Q]`` in SI up to one factor per mode; the members of a cluster
+        are independent of each other.
+    """
+    largest = float(np.max(np.abs(omega2)))
+    fine = split_long(chain, largest)
+    keep = _kept_nodes(chain, fine)
+    together = max(1, 4_000_000 // (16 * len(fine.length)))
+    parts, first = [], 0
+    while first < len(omega2):
+        last = min(first + together, len(omega2))
+        while last < len(omega2) and multiplicity[last] > 1 and omega2[last] == omega2[last - 1]:
+            last += 1
+        parts.append(_states(fine, omega2[first:last], multiplicity[first:last], largest)[keep])
+        first = last
+    return np.concatenate(parts, axis=1)
+
+
+def _kept_nodes(chain: Chain, fine: Chain) -> Integers:
+    ends = np.searchsorted(fine.nodes, chain.nodes)
+    nearest = np.abs(fine.nodes[np.maximum(ends - 1, 0)] - chain.nodes)
+    after = np.abs(fine.nodes[np.minimum(ends, len(fine.length))] - chain.nodes)
+    return np.where(nearest < after, ends - 1, np.minimum(ends, len(fine.length)))
+
+
+def _states(fine: Chain, omega2: Array, multiplicity: Integers, largest: float) -> Array:
+    U = segment_transfers(fine, omega2)
+    starts = block_starts(fine, largest)
+    matching = match(fine, multiply_groups(U, starts))
+    node = np.argmin(matching.gap, axis=0)
+    z = carry_outwards(
+        matching.left, matching.right, node, matching.state[node, np.arange(len(omega2))]
+    )
+    for lane in np.flatnonzero(multiplicity > 1):
+        if lane == 0 or omega2[lane - 1] != omega2[lane]:
+            members = slice(int(lane), int(lane + multiplicity[lane]))
+            z[:, members] = _cluster(fine, matching, int(lane), int(multiplicity[lane]), starts)
+    states = fill_blocks(z, U, starts)
+    return states * state_units(fine, omega2)
+
+
+def _cluster(fine: Chain, matching: Matching, lane: int, members: int, starts: Integers) -> Array:
+    """Return independent modes of a cluster, matched at several nodes, (blocks + 1, members, s)."""
+    gap = matching.gap[:, lane]
+    spread = np.array_split(np.arange(len(gap)), min(_CANDIDATE_NODES, len(gap)))
+    nodes = np.array([part[np.argmin(gap[part])] for part in spread])
+    d = matching.right.F.shape[-1]
+    frames = matching.right.F[nodes, lane]
+    states = np.concatenate([matching.state[nodes, lane]] + [frames[..., j] for j in range(d)])
+    nodes = np.tile(nodes, d + 1)
+    quality = gap[nodes]
+    quality[len(nodes) // (d + 1) :] = _misfit(matching, lane, nodes, states)[
+        len(nodes) // (d + 1) :
+    ]
+    z = carry_outwards(*_repeat_lane(matching, lane, len(nodes)), nodes, states)
+    weight = fine.mass[np.minimum(np.append(starts, len(fine.mass) - 1), len(fine.mass) - 1)]
+    return _independent(z, weight, quality, members)
+
+
+def _misfit(matching: Matching, lane: int, nodes: Integers, states: Array) -> Array:
+    """Return how far states of the right frame lie outside the left frame."""
+    F = matching.left.F[nodes, lane]
+    inside = np.einsum("nsd,nd->ns", F, np.einsum("nsd,ns->nd", F, states))
+    return np.asarray(np.linalg.norm(states - inside, axis=-1))
+
+
+def _repeat_lane(matching: Matching, lane: int, times: int) -> tuple[Sweep, Sweep]:
+    """Return both sweeps of one lane, as many times side by side."""
+    here = np.full(times, lane)
+    left, right = matching.left, matching.right
+    return Sweep(left.F[:, here], left.R[:, here]), Sweep(right.F[:, here], right.R[:, here])
+
+
+def _independent(z: Array, weight: Array, quality: Array, members: int) -> Array:
+    """Pick and orthogonalise the most independent candidates (pivoted Gram-Schmidt by mass)."""
+    displacement = z[..., 0] * np.sqrt(weight)[:, None]
+    norm = np.linalg.norm(displacement, axis=0)
+    usable = (quality < 1e-5) & (norm > 0)
+    scale = np.where(norm > 0, norm, 1.0)
+    z, displacement = z / scale[:, None], displacement / scale
+    displacement = np.where(usable, displacement, 0.0)
+    chosen = np.empty((z.shape[0], members, z.shape[-1]))
+    for k in range(members):
+        best = int(np.argmax(np.linalg.norm(displacement, axis=0)))
+        size = float(np.linalg.norm(displacement[:, best]))
+        if size < 1e-6:
+            raise ArithmeticError("the modes of a cluster could not be told apart")
+        chosen[:, k] = z[:, best] / size
+        unit = displacement[:, best] / size
+        share = unit @ displacement
+        displacement = displacement - unit[:, None] * share
+        z = z - chosen[:, k][:, None, :] * share[:, None]
+    return chosen
+
+
+class Squares(NamedTuple):
+    """Integrals over each segment of squares along the modes, shape (n, modes)."""
+
+    displacement: Array
+    """of Y^2 (or X^2) [m^3]"""
+    slope: Array
+    """of theta^2 [m]; zero longitudinally"""
+    moment: Array
+    """of M^2 [N^2 m^3] (or Q_x^2 [N^2 m])"""
+    shear: Array
+    """of M'^2 [N^2 m]; zero longitudinally"""
+
+
+def integrate_squares(chain: Chain, states: Array, omega2: Array) -> Squares:
+    """Integrate the squares of a mode's state over every segment (Gauss points, exact states).
+
+    Parameters
+    ----------
+    states : array, shape (n + 1, k, s)
+    omega2 : array, shape (k,)
+    """
+    phase = largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length
+    points, weights = np.polynomial.legendre.leggauss(_gauss_points(float(np.max(phase))))
+    total = np.zeros((4, len(chain.length), len(omega2)))
+    for point, weight in zip((points + 1) / 2, weights / 2, strict=True):
+        z = propagate(chain, states[:-1], omega2, point * chain.length)
+        total += weight * chain.length[:, None] * _squares(chain, z)
+    return Squares(*total)
+
+
+def _gauss_points(phase: float) -> int:
+    return 3 if phase < 0.05 else 4 if phase < 0.2 else 6 if phase < 0.7 else 10
+
+
+def _squares(chain: Chain, z: Array) -> Array:
+    if chain.family == "longitudinal":
+        X, Q = z[..., 0], z[..., 1]
+        return np.stack([X**2, 0 * X, Q**2, 0 * X])
+    Y, theta, M, Q = np.moveaxis(z, -1, 0)
+    return np.stack([Y**2, theta**2, M**2, (Q - chain.axial_force[:, None] * theta) ** 2])
+
+
+def propagate(chain: Chain, states: Array, omega2: Array, distance: Array) -> Array:
+    """Return the states a `distance` into each segment from those at its left end, (n, k, s)."""
+    units = state_units(chain, omega2)
+    U = segment_transfers(chain, omega2, distance)
+    return np.asarray(np.einsum("nkij,nkj->nki", U, states / units) * units)
