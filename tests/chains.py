@@ -1,32 +1,43 @@
 """Random chains of uniform beam segments for checks of eigenvalue counts: `draw_case(seed, index)`.
 
-Every case depends on its seed and index alone. By index a half of them have a step of 1e5 to 1e6 in
-EI, a third 100 to 300 segments, a third an axial force within 5 % of buckling; the rest is drawn:
-ends, lengths, stiffness, mass, tension or compression, and where omega^2 lies among the eigenvalues.
-omega^2 is drawn in the middle (log) of a gap between two eigenvalues, or below the first one.
+Every case depends on its seed and index alone. By index a half of them have a step of 1e5 to 1e6
+in EI, a third 100 to 300 segments, a third an axial force within 5 % of buckling; the rest is
+drawn: ends, lengths, stiffness, mass, tension or compression (to many times buckling), mirrored
+and periodic chains with their clusters, and where omega^2 lies among the eigenvalues. That is the
+middle (log) of a gap between two eigenvalues, or below the first one, or between zero and the next
+one, or, away from eigenvalues, where one segment's own formulas are singular.
 """
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
-from reference import BeamChain, count_below, scale
+from reference import BeamChain, count_below, eigenvalue, scale
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 NARROWEST_GAP = 1e-7  # relative distance of two eigenvalues with omega^2 drawn between them
 NEAR = 0.05  # of buckling
-_LIMIT = (1e-30, 1e40)  # moduli of omega^2 in units of `scale`
+STEEP = 1e5  # step in EI
+LONG = 100  # segments
+_ZERO = 1e-30  # modulus of omega^2 in units of `scale` below which an eigenvalue is an exact zero
 
 
 @dataclass(frozen=True)
 class Case:
-    """A chain and an omega^2 [rad^2/s^2]; load_factor is its axial force by the critical one."""
+    """A chain and an omega^2 [rad^2/s^2].
+
+    No eigenvalue lies within the relative distance `room` of omega2, `negative` of them are below
+    zero, and `load_factor` is the axial force by the critical one where that was looked for.
+    """
 
     index: int
     chain: BeamChain
     omega2: float
     target: str
+    room: float
+    negative: int
     load_factor: float = math.nan
 
     @property
@@ -67,8 +78,9 @@ def draw_case(seed, index):
     if near:
         factor = rng.uniform(1 - 0.95 * NEAR, 1 + 0.95 * NEAR)
         chain = chain.scaled(factor * critical_load(chain))
-    target, omega2 = _draw_omega2(rng, chain, near)
-    return Case(index, chain, omega2, target, factor)
+    spectrum = _Spectrum(chain)
+    target, omega2, room = _draw_omega2(rng, spectrum, near)
+    return Case(index, chain, omega2, target, room, spectrum.negative, factor)
 
 
 # --- the chain -------------------------------------------------------------------------------
@@ -76,8 +88,8 @@ def draw_case(seed, index):
 
 def _draw_size(rng, long, steep):
     if long:
-        return int(rng.integers(100, 301))
-    return max(1 + steep, int(_log_uniform(rng, 1, 100)))
+        return int(rng.integers(LONG, 301))
+    return max(1 + steep, int(_log_uniform(rng, 1, LONG)))
 
 
 def _log_uniform(rng, lo, hi, size=None):
@@ -88,12 +100,25 @@ def _draw_chain(rng, n, steep, near):
     h = np.ones(n) if rng.random() < 0.3 else _log_uniform(rng, 1, 30, n)
     h *= _log_uniform(rng, 0.3, 30) / h.sum()
     EI = _log_uniform(rng, 1e3, 1e7) * (_steep(rng, n) if steep else _mild(rng, n))
-    m = _log_uniform(rng, 1, 1e3) * (
-        _two_levels(rng, n, 1e6) if rng.random() < 0.3 else _mild(rng, n)
-    )
+    two_masses = rng.random() < 0.3
+    m = _log_uniform(rng, 1, 1e3) * (_two_levels(rng, n, 1, 1e6) if two_masses else _mild(rng, n))
     N = _draw_force(rng, h, EI, near)
-    ends = (str(end) for end in rng.choice(ENDS, 2))
-    return BeamChain(*(tuple(values.tolist()) for values in (h, EI, m, N)), *ends)
+    order = _draw_order(rng, n)
+    if steep and _largest_step(EI[order]) < STEEP:
+        order = np.arange(n)
+    left, right = map(str, rng.choice(ENDS, 2))
+    if n > 1 and order[-1] == 0:  # two like halves, often with a heavy middle between them
+        right = left
+        m[n // 3 : n - n // 3] *= 1 if two_masses else _log_uniform(rng, 1, 1e5)
+    return BeamChain(*(tuple(values[order].tolist()) for values in (h, EI, m, N)), left, right)
+
+
+def _draw_order(rng, n):
+    """Segments as drawn, mirrored about the middle, or in periods: for close eigenvalues."""
+    at, kind = np.arange(n), rng.random()
+    if kind < 0.12:
+        return np.minimum(at, at[::-1])
+    return at % rng.integers(2, 9) if kind < 0.24 else at
 
 
 def _mild(rng, n):
@@ -106,18 +131,16 @@ def _mild(rng, n):
 def _steep(rng, n):
     """With a step of 1e5 to 1e6: two levels, or scattered over six decades."""
     if rng.random() < 0.6:
-        return _two_levels(rng, n, 1e5, 1e6)
+        return _two_levels(rng, n, STEEP, 1e6)
     values = _log_uniform(rng, 1, 1e6, n)
     at = int(rng.integers(n - 1))
-    values[at : at + 2] = rng.permutation([1.0, _log_uniform(rng, 1e5, 1e6)])
+    values[at : at + 2] = rng.permutation([1.0, _log_uniform(rng, STEEP, 1e6)])
     return values
 
 
-def _two_levels(rng, n, *ratio):
-    """Two levels: one step, one odd segment, or blocks."""
-    ratio = _log_uniform(rng, *ratio) if len(ratio) == 2 else _log_uniform(rng, 1, *ratio)
-    high = np.zeros(n, bool)
-    kind = rng.integers(3)
+def _two_levels(rng, n, lo, hi):
+    """Two levels, their ratio between lo and hi: one step, one odd segment, or blocks."""
+    kind, high = rng.integers(3), np.zeros(n, bool)
     if kind == 0:
         high[: rng.integers(1, max(2, n))] = True
     elif kind == 1:
@@ -125,11 +148,11 @@ def _two_levels(rng, n, *ratio):
     else:
         high = np.cumsum(rng.random(n) < rng.choice([0.1, 0.5, 1.0])) % 2 == 1
         high[0] = not high[-1] if high.all() or not high.any() else high[0]
-    return np.where(high ^ (rng.random() < 0.5), ratio, 1.0)
+    return np.where(high ^ (rng.random() < 0.5), _log_uniform(rng, lo, hi), 1.0)
 
 
 def _draw_force(rng, h, EI, near):
-    """Axial force: a pattern of largest value 1 times up to ten Euler loads; net push if `near`."""
+    """Axial force: a pattern of largest value 1 times an Euler load; in net push if `near`."""
     n, x = len(h), np.cumsum(h) / h.sum()
     constant, linear = np.ones(n), np.linspace(1, rng.uniform(-1, 1), n)
     wave, random = np.sin(2 * np.pi * (x + rng.random())), rng.uniform(-1, 1, n)
@@ -138,7 +161,8 @@ def _draw_force(rng, h, EI, near):
     if near and h @ pattern < 0:
         pattern = -pattern
     euler = math.pi**2 / (h.sum() * (h / EI).sum())
-    size = 1 if near else rng.choice([-1, 1, 1]) * _log_uniform(rng, 0.01, 10)
+    usual = _log_uniform(rng, 0.01, 10) if rng.random() < 0.6 else _log_uniform(rng, 1, 300)
+    size = 1 if near else rng.choice([-1, 1, 1]) * usual
     return size * euler * pattern
 
 
@@ -172,78 +196,117 @@ def _count(chain, omega2):
 # --- omega^2 ---------------------------------------------------------------------------------
 
 
-def _draw_omega2(rng, chain, near):
-    """(where, omega^2): below the first eigenvalue, among negative ones, near zero, or above."""
-    spectrum = _Spectrum(chain)
+def _draw_omega2(rng, spectrum, near):
+    """(where, omega^2, room): see `_KINDS`."""
+    target = str(rng.choice(_KINDS[:5] if near else _KINDS))
+    if target == "singular" and (found := _singular(rng, spectrum)):
+        return target, *found
     negative, rigid = spectrum.negative, spectrum.zeros
-    kinds = ("below", "negative", "about zero", "between", "between", "high")
-    target = str(rng.choice(kinds[:4] if near else kinds))
-    sign = rng.choice([-1, 1])
-    if target == "below":
+    sign = int(rng.choice([-1, 1]))
+    if target == "below the first":
         count, sign = 0, (-1 if negative + rigid else sign)
     elif target == "negative":
-        count, sign = int(rng.integers(negative + 1)), -1
+        count, sign = int(rng.integers(min(1, negative), negative + 1)), -1
     elif target == "about zero":
         count = negative + (rigid if sign > 0 else 0)
+    elif target == "narrow":
+        count, sign = negative + rigid + spectrum.narrowest(1, 10), 1
     else:
-        count = negative + rigid + int(rng.integers(1, 13 if target == "between" else 61))
+        count = negative + rigid + int(rng.integers(1, 61 if target == "high" else 13))
         sign = 1
-    return target, spectrum.draw(rng, count, sign)
+    return target, *spectrum.draw(rng, count, sign)
+
+
+_KINDS = ("below the first", "negative", "about zero", "narrow", "singular", "high", "between")
+
+
+def _singular(rng, spectrum):
+    """omega^2 at a clamped root of one segment, or where its wave numbers coincide."""
+    h, EI, m, N = spectrum.chain.segments[rng.integers(len(spectrum.chain.h))]
+    omega2 = -(N**2) / (4 * EI * m)
+    if N == 0 or rng.random() < 0.5:
+        clamped = BeamChain((h,), (EI,), (m,), (N,), "clamped", "clamped")
+        omega2 = float(eigenvalue(clamped, int(rng.integers(1, 4)), digits=17))
+    if omega2 == 0 or _waves(spectrum.chain, omega2) > 100:
+        return None
+    around = {_count(spectrum.chain, omega2 * (1 + side * NARROWEST_GAP)) for side in (-1, 1)}
+    return (omega2, NARROWEST_GAP) if len(around) == 1 else None
+
+
+def _waves(chain, omega2):
+    """Half waves along the chain, roughly: how much work a count is."""
+    return math.fsum(
+        h * math.sqrt(abs(N) / EI + math.sqrt(m * abs(omega2) / EI)) / math.pi
+        for h, EI, m, N in chain.segments
+    )
 
 
 class _Spectrum:
-    """Counts of a chain's eigenvalues along the axis of omega^2, remembered."""
+    """Counts of a chain's eigenvalues along the axis of omega^2, remembered.
+
+    On each side of zero an eigenvalue has a rank, from 1, and a modulus in units of `scale`.
+    """
 
     def __init__(self, chain):
         self.chain, self.unit = chain, scale(chain)
         self.known = {}
-        self.negative = self.count(-1, _LIMIT[0])
-        self.zeros = self.count(1, _LIMIT[0]) - self.negative
+        self.negative = self._count(-1, _ZERO)
+        self.zeros = self._count(1, _ZERO) - self.negative
 
-    def count(self, sign, modulus):
-        """Eigenvalues below sign * modulus * unit."""
+    def _count(self, sign, modulus):
         key = sign, modulus
         if key not in self.known:
             self.known[key] = _count(self.chain, float(sign * modulus * self.unit))
         return self.known[key]
 
     def draw(self, rng, count, sign):
-        """omega^2 of that sign with `count` eigenvalues below it, or the next count with room."""
-        step = 1 if sign > 0 or count < self.negative else -1
-        while (modulus := self._middle(rng, count, sign)) is None:
-            count += step
-        return float(sign * modulus * self.unit)
+        """(omega^2, room) with `count` eigenvalues below, or more where the gap is too narrow."""
+        step = 1
+        while (found := self._middle(rng, count, sign)) is None:
+            count, step = count + step, 2 * step
+            count = count if sign > 0 else min(count, self.negative)
+        modulus, room = found
+        return float(sign * modulus * self.unit), float(room)
+
+    def narrowest(self, first, last):
+        """Rank of the positive eigenvalue with its next one relatively the closest."""
+        brackets = [self._bracket(1, rank, 1.001) for rank in range(first, last + 2)]
+        gaps = [outer[0] / inner[0] for inner, outer in pairwise(brackets)]
+        return first + int(np.argmin(gaps))
 
     def _middle(self, rng, count, sign):
-        """Modulus in the middle of the gap, or None where the gap is too narrow."""
+        """(modulus, room) in the middle of the gap, or None where the gap is too narrow."""
         rank = count - self.negative - self.zeros if sign > 0 else self.negative - count
         inner = self._bracket(sign, rank) if rank > 0 else None
         outer = self._bracket(sign, rank + 1) if sign > 0 or count > 0 else None
+        far = _log_uniform(rng, 1.2, 1e4)
         if inner is None and outer is None:
-            return _log_uniform(rng, 1e-4, 1e6)
+            return _log_uniform(rng, 1e-4, 1e6), math.inf
         if inner is None:
-            return outer[0] / _log_uniform(rng, 1.2, 1e4)
+            return outer[0] / far, far - 1
         if outer is None:
-            return inner[1] * _log_uniform(rng, 1.2, 1e4)
-        while not _apart(inner, outer):
+            return inner[1] * far, 1 - 1 / far
+        return self._between(sign, rank, inner, outer)
+
+    def _between(self, sign, rank, inner, outer):
+        while outer[0] / inner[1] <= max(inner[1] / inner[0], outer[1] / outer[0]) ** 8:
             if outer[1] < inner[0] * (1 + NARROWEST_GAP):
                 return None
             inner, outer = self._halve(sign, rank, inner), self._halve(sign, rank + 1, outer)
-        return (inner[0] * inner[1] * outer[0] * outer[1]) ** 0.25
+        modulus = (inner[0] * inner[1] * outer[0] * outer[1]) ** 0.25
+        return modulus, min(1 - inner[1] / modulus, outer[0] / modulus - 1)
 
     def _rank(self, sign, modulus):
         """Eigenvalues of that sign of smaller modulus."""
-        count = self.count(sign, modulus)
+        count = self._count(sign, modulus)
         return count - self.negative - self.zeros if sign > 0 else self.negative - count
 
-    def _bracket(self, sign, rank):
-        """(lo, hi) about the modulus of the rank-th eigenvalue of that sign, counted from zero."""
-        lo, hi = _LIMIT[0], 1.0
+    def _bracket(self, sign, rank, width=1.2):
+        """(lo, hi) about the modulus of the rank-th eigenvalue of that sign."""
+        lo, hi = _ZERO, 1.0
         while self._rank(sign, hi) < rank:
             lo, hi = hi, hi * 256
-        while self._rank(sign, lo) >= rank:
-            lo, hi = lo / 256, lo
-        while hi > 2 * lo:
+        while hi > width * lo:
             lo, hi = self._halve(sign, rank, (lo, hi))
         return lo, hi
 
@@ -251,8 +314,3 @@ class _Spectrum:
         lo, hi = bracket
         middle = math.sqrt(lo * hi)
         return (lo, middle) if self._rank(sign, middle) >= rank else (middle, hi)
-
-
-def _apart(inner, outer):
-    """The brackets are narrower than the gap between them."""
-    return outer[0] / inner[1] > max(inner[1] / inner[0], outer[1] / outer[0])

@@ -1,3 +1,85 @@
-"""antinode: natural vibration of slender vehicles in motion, and of any beam."""
+"""antinode: natural vibration of slender vehicles in motion, and of any beam.
+
+    import antinode as an
+    result = an.solve_modes(an.load_case("case.toml"))
+
+Names are imported from their modules on first use, so that importing antinode costs nothing.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from .beam import Beam, Ends
+    from .beam_file import BeamFile, load_beam
+    from .case import Case, load_case
+    from .condition import OperatingCondition, Water
+    from .errors import AntinodeError, ComputationError, InputError
+    from .loads import Loads, compute_loads
+    from .model import Model
+    from .modes import solve_modes
+    from .result import ModalResult, Mode
+    from .vehicle import Cavitator, FinSet, Stations, Vehicle
+
+_HOME = {
+    "Beam": "beam",
+    "Ends": "beam",
+    "BeamFile": "beam_file",
+    "load_beam": "beam_file",
+    "Case": "case",
+    "load_case": "case",
+    "OperatingCondition": "condition",
+    "Water": "condition",
+    "AntinodeError": "errors",
+    "ComputationError": "errors",
+    "InputError": "errors",
+    "Loads": "loads",
+    "compute_loads": "loads",
+    "Model": "model",
+    "solve_modes": "modes",
+    "ModalResult": "result",
+    "Mode": "result",
+    "Cavitator": "vehicle",
+    "FinSet": "vehicle",
+    "Stations": "vehicle",
+    "Vehicle": "vehicle",
+}
+
+__all__ = [
+    "AntinodeError",
+    "Beam",
+    "BeamFile",
+    "Case",
+    "Cavitator",
+    "ComputationError",
+    "Ends",
+    "FinSet",
+    "InputError",
+    "Loads",
+    "ModalResult",
+    "Mode",
+    "Model",
+    "OperatingCondition",
+    "Stations",
+    "Vehicle",
+    "Water",
+    "__version__",
+    "compute_loads",
+    "load_beam",
+    "load_case",
+    "solve_modes",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'antinode' has no attribute '{name}'")
+    return getattr(importlib.import_module(f".{_HOME[name]}", __name__), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -382,7 +382,8 @@ class Loads:
         )
         yield (
             f"forces [N]: cavitator {self.F_CX:.5g} aft, {self.F_CY:.5g} up; "
-            f"fins {self.F_fX:.5g} aft, {self.F_fY:.5g} up; planing {p.F_PX:.5g} aft, {p.F_PY:.5g} up at x = {p.x_P:.4g} m; "
+            f"fins {self.F_fX:.5g} aft, {self.F_fY:.5g} up; "
+            f"planing {p.F_PX:.5g} aft, {p.F_PY:.5g} up at x = {p.x_P:.4g} m; "
             f"thrust {self.thrust:.5g}; weight {self.weight:.5g}"
         )
         yield (
@@ -579,17 +580,21 @@ def _ranges(vehicle: Vehicle, hole: Cavity, tail: Planing) -> Iterator[tuple[Ran
         yield cavity.RISE_RANGE, hole.Fr_L
     if hole.model.distortion != "none":
         yield cavity.DISTORTION_RANGE, alpha
-    for fin in vehicle.fins:
+    if vehicle.fins:
         yield fins.DRAG_RANGE, sigma
         if hole.model.fin_lift != "none":
-            phi = np.array(fin.roll_angles)
-            incidence = fins.fin_incidence(hole.theta, fin.deflection, phi)
-            yield fins.LIFT_RANGE, float(np.abs(incidence).max())
-    if tail.area > 0:
+            yield fins.LIFT_RANGE, max(_largest_incidence(fin, hole) for fin in vehicle.fins)
+    planes = hole.model.planing != "none"
+    if planes and tail.area > 0:
         yield planing.FRICTION_RANGE, tail.Re_w
-    if tail.h > 0:
+    if planes and tail.h > 0:
         yield planing.CLEARANCE_RANGE, tail.R_prime
         yield planing.SLOPE_RANGE, tail.alpha_p
+
+
+def _largest_incidence(fin: FinSet, hole: Cavity) -> float:
+    incidence = fins.fin_incidence(hole.theta, fin.deflection, np.array(fin.roll_angles))
+    return float(np.abs(incidence).max())
 
 
 def _warnings(
@@ -604,8 +609,8 @@ def _warnings(
     if hole.L_c < vehicle.length:
         yield (
             f"The cavity closes at x = {hole.L_c:.4g} m, ahead of the tail at "
-            f"{vehicle.length:.4g} m, and the body behind it is taken as wetted all round: lower sigma, or take a larger "
-            "cavitator, if a full cavity was meant."
+            f"{vehicle.length:.4g} m, and the body behind it is taken as wetted all round: "
+            "lower sigma, or take a larger cavitator, if a full cavity was meant."
         )
     for number, fin in enumerate(fin_loads, 1):
         if not any(fin.immersion):

@@ -171,14 +171,14 @@ class Stations(Frozen):
     @classmethod
     def _gather_mass_states(cls, data: Any) -> Any:
         """Turn the columns mass_per_length and mass_per_length:NAME into one dictionary."""
-        if not isinstance(data, dict):
+        if not isinstance(data, dict) or isinstance(data.get(_MASS), dict):
             return data
-        masses: dict[str, Any] = {}
-        for key in [key for key in data if str(key).partition(":")[0] == "mass_per_length"]:
-            is_table = isinstance(data[key], dict)
-            masses |= data[key] if is_table else {key.partition(":")[2] or "initial": data[key]}
-        others = {key: value for key, value in data.items() if key.partition(":")[0] != _MASS}
-        return others | {_MASS: masses} if masses else others
+        names = [key for key in data if str(key).partition(":")[0] == _MASS]
+        states = {name.partition(":")[2] or "initial": data[name] for name in names}
+        if len(states) < len(names):
+            raise ValueError("mass_per_length: two columns name the same mass state: rename one")
+        others = {key: value for key, value in data.items() if key not in names}
+        return others | {_MASS: states} if states else others
 
     @model_validator(mode="after")
     def _check_table(self) -> Self:

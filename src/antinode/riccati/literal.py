@@ -1,8 +1,8 @@
 """The paper's two characteristic functions as written: transfer matrices and Riccati recursion.
 
-Equations 63-66 multiply the transfer matrices of all segments; equations 67-80 carry S instead. They
-serve `--method tmm`, figures, and the comparison with the frames of `antinode.riccati.chain`, which
-compute the same zeros without overflow (63) and without poles (74).
+Equations 63-66 multiply the transfer matrices of all segments; equations 67-80 carry S instead.
+They serve `--method tmm`, figures, and the comparison with the frames of `antinode.riccati.chain`,
+which compute the same zeros without overflow (63) and without poles (74).
 """
 
 from __future__ import annotations

@@ -1,0 +1,169 @@
+"""The beam file: a beam given by stations in TOML, checked and turned into a `Beam`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import Field, model_validator
+
+from .beam import AxialEnd, Beam, End, Ends, Interpolation
+from .errors import InputError
+from .files import override, read_stations, read_toml, validate
+from .units import Frozen, Number
+from .vehicle import Column
+
+Array = npt.NDArray[np.float64]
+COLUMNS = (
+    "x",
+    "mass_per_length",
+    "bending_stiffness",
+    "axial_stiffness",
+    "axial_force",
+    "radius_of_gyration",
+)
+
+
+class Solve(Frozen):
+    """What to compute, and how well."""
+
+    modes: int = Field(6, ge=1, le=500, description="elastic modes of each family")
+    tolerance: Annotated[Number, Field(ge=1e-12, le=0.1)] = Field(
+        1e-6, description="largest relative error of a frequency by what varies inside segments"
+    )
+
+
+class BeamEnds(Frozen):
+    """How the ends are held."""
+
+    left: End = "free"
+    right: End = "free"
+    left_axial: AxialEnd | None = Field(
+        None, description="default: fixed for clamped and pinned, else free"
+    )
+    right_axial: AxialEnd | None = Field(
+        None, description="default: fixed for clamped and pinned, else free"
+    )
+
+
+class BeamStations(Frozen):
+    """The table along the beam; rows count from 1."""
+
+    x: Annotated[Array, Column("m")] = Field(description="position [m], increasing")
+    mass_per_length: Annotated[Array, Column("kg/m")] = Field(description="m [kg/m]")
+    bending_stiffness: Annotated[Array, Column("N m^2")] = Field(description="EI [N m^2]")
+    axial_stiffness: Annotated[Array, Column("N")] | None = Field(
+        None, description="EA [N]; without it there are no longitudinal modes"
+    )
+    axial_force: Annotated[Array, Column("N")] | None = Field(
+        None, description="N [N], compression positive; zero by default"
+    )
+    radius_of_gyration: Annotated[Array, Column("m")] | None = Field(
+        None, description="of the cross-section [m], for the model column; default sqrt(EI/EA)"
+    )
+
+    @model_validator(mode="after")
+    def _check_table(self) -> Self:
+        _check_positions(self.x)
+        for name in COLUMNS[1:]:
+            column = getattr(self, name)
+            if column is not None:
+                _check_column(name, column, len(self.x))
+        return self
+
+
+def _check_positions(x: Array) -> None:
+    if len(x) < 2:
+        raise ValueError(f"x has {len(x)} rows; a table of stations needs at least two")
+    if not np.all(np.isfinite(x)):
+        raise ValueError("x must be finite numbers [m]: correct the row with NaN or inf")
+    for i in np.flatnonzero(np.diff(x) <= 0)[:1]:
+        step = "remove one of the duplicate rows" if x[i] == x[i + 1] else "sort the rows by x"
+        raise ValueError(
+            f"x must increase: row {i + 1} has {x[i]:.10g} m and row {i + 2} {x[i + 1]:.10g} m; "
+            f"{step}"
+        )
+
+
+def _check_column(name: str, column: Array, rows: int) -> None:
+    if len(column) != rows:
+        raise ValueError(f"{name} has {len(column)} rows, but x has {rows}: give one value a row")
+    ok = np.isfinite(column) & ((column > 0) | (name == "axial_force"))
+    for i in np.flatnonzero(~ok)[:1]:
+        allowed = "a finite number" if name == "axial_force" else "greater than 0 and finite"
+        raise ValueError(
+            f"{name}, row {i + 1}, is {column[i]:.10g}; it must be {allowed}: correct this row"
+        )
+
+
+class BeamTable(Frozen):
+    """The table `[beam]`."""
+
+    name: str = Field("beam", max_length=200, description="shown in tables and figures")
+    interpolation: Interpolation = Field(
+        "step", description="how columns run between stations; axial_force linearly unless 'step'"
+    )
+    stations: BeamStations
+    ends: BeamEnds = BeamEnds()
+
+
+class BeamFile(Frozen):
+    """A beam file with everything in it."""
+
+    table: BeamTable = Field(alias="beam")
+    solve: Solve = Solve()
+
+    def beam(self) -> Beam:
+        """Return the beam that the file describes."""
+        table, stations = self.table, self.table.stations
+        return Beam.from_stations(
+            stations.x,
+            stations.mass_per_length,
+            stations.bending_stiffness,
+            stations.axial_stiffness,
+            stations.axial_force,
+            interpolation=table.interpolation,
+            ends=Ends(**table.ends.model_dump()),
+            radius_of_gyration=stations.radius_of_gyration,
+            name=table.name,
+        )
+
+
+def load_beam(path: str | Path, assignments: Iterable[str] = ()) -> BeamFile:
+    """Read a beam file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A TOML file.
+    assignments : iterable of str
+        Overrides such as ``"beam.ends.left=clamped"``.
+
+    Returns
+    -------
+    BeamFile
+        Its `beam()` is what `solve_modes` wants.
+
+    Raises
+    ------
+    InputError
+        If anything in it is wrong.
+    """
+    path = Path(path)
+    tables = read_toml(path)
+    override(tables, assignments)
+    if "vehicle" in tables and "beam" not in tables:
+        raise InputError(f"{path}: this is a vehicle's case; use 'antinode modes {path}'")
+    return validate(BeamFile, _with_stations(tables, path), str(path))
+
+
+def _with_stations(tables: dict[str, Any], path: Path) -> dict[str, Any]:
+    beam = tables.get("beam")
+    if not isinstance(beam, dict) or "stations" not in beam:
+        return tables
+    key = f"{path}: beam.stations"
+    stations = read_stations(beam["stations"], path.parent, key, COLUMNS)
+    return {**tables, "beam": {**beam, "stations": stations}}

@@ -1,0 +1,128 @@
+"""The case: a vehicle in an operating condition, read from TOML, with its loads and its beam."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import Field
+
+from .beam import Beam
+from .beam_file import Solve
+from .condition import OperatingCondition, Water
+from .errors import InputError
+from .files import override, read_stations, read_toml, validate
+from .loads import Loads, compute_loads
+from .model import Model
+from .units import Frozen
+from .vehicle import Section, Vehicle
+
+Array = npt.NDArray[np.float64]
+COLUMNS = (
+    "x",
+    "mass_per_length",
+    "bending_stiffness",
+    "axial_stiffness",
+    "radius",
+    "radius_of_gyration",
+    "wall",
+)
+
+
+class Case(Frozen):
+    """A vehicle in a condition, with all choices made."""
+
+    vehicle: Vehicle
+    condition: OperatingCondition
+    water: Water = Field(default_factory=Water)
+    model: Model = Field(default_factory=Model)
+    solve: Solve = Field(default_factory=Solve)
+
+    @cached_property
+    def loads(self) -> Loads:
+        """Cavity, forces, accelerations and internal forces in this condition."""
+        return compute_loads(self.vehicle, self.condition, self.water, self.model)
+
+    def beam(self) -> Beam:
+        """Return the free-free beam under the axial force of this condition."""
+        return vehicle_beam(self.vehicle, self.loads, self.condition.burn_fraction)
+
+
+def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float) -> Beam:
+    """Return a vehicle as a free-free beam under the axial force of its loads.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    loads : Loads
+        ``N(x) = axial_jump + axial_inertia * (mass ahead of x)`` between its breakpoints.
+    burn_fraction : float
+        0 the first mass state, 1 the last.
+    """
+    section = vehicle.section(loads.breakpoints, burn_fraction)
+    steps = np.repeat(loads.axial_jump[:, None], 2, axis=1)
+    return Beam(
+        x=loads.breakpoints,
+        mass_per_length=section.mass_per_length,
+        bending_stiffness=section.bending_stiffness,
+        axial_stiffness=section.axial_stiffness,
+        axial_force=steps,
+        axial_acceleration=loads.axial_inertia,
+        interpolation=vehicle.interpolation,
+        radius_of_gyration=radius_of_gyration(section),
+        name=vehicle.name,
+    )
+
+
+def radius_of_gyration(section: Section) -> Array | None:
+    """Return the radius of gyration of the cross-section: as given, or of the hull's tube [m].
+
+    ``r^2 = (R^2 + (R - t)^2)/4`` with outer radius R and wall t; None if neither is given (the beam
+    then takes sqrt(EI/EA)).
+    """
+    if section.radius_of_gyration is not None:
+        return section.radius_of_gyration
+    if section.wall is None:
+        return None
+    inner = np.maximum(section.radius - section.wall, 0.0)
+    return np.asarray(np.sqrt((section.radius**2 + inner**2) / 4))
+
+
+def load_case(path: str | Path, assignments: Iterable[str] = ()) -> Case:
+    """Read a case file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A TOML file.
+    assignments : iterable of str
+        Overrides such as ``"condition.speed=100m/s"``.
+
+    Returns
+    -------
+    Case
+
+    Raises
+    ------
+    InputError
+        If anything in it is wrong.
+    """
+    path = Path(path)
+    tables = read_toml(path)
+    override(tables, assignments)
+    if "beam" in tables and "vehicle" not in tables:
+        raise InputError(f"{path}: this is a beam file; use 'antinode beam {path}'")
+    return validate(Case, _with_stations(tables, path), str(path))
+
+
+def _with_stations(tables: dict[str, Any], path: Path) -> dict[str, Any]:
+    vehicle = tables.get("vehicle")
+    if not isinstance(vehicle, dict) or "stations" not in vehicle:
+        return tables
+    key = f"{path}: vehicle.stations"
+    stations = read_stations(vehicle["stations"], path.parent, key, COLUMNS)
+    return {**tables, "vehicle": {**vehicle, "stations": stations}}

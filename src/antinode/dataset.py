@@ -1,0 +1,181 @@
+"""Results as labelled arrays with units (xarray), and as files: CSV, JSON, NetCDF."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import __version__
+from .errors import InputError
+from .result import COMPONENTS, ModalResult, Mode
+
+if TYPE_CHECKING:
+    import xarray
+
+_SCALARS: tuple[tuple[str, str, str], ...] = (
+    ("frequency_hz", "Hz", "natural frequency; NaN where divergent"),
+    ("error_hz", "Hz", "the frequency of the beam lies within this of frequency_hz"),
+    ("omega2", "rad^2/s^2", "eigenvalue"),
+    ("error_omega2", "rad^2/s^2", "bound on the error of omega2"),
+    ("growth_rate_per_s", "1/s", "growth rate of a divergent mode; NaN where omega2 >= 0"),
+    ("modal_mass", "kg", "integral of m Y^2 of the shape as normalised"),
+    ("shift", "1", "relative change of the frequency by the axial force"),
+    ("model_error", "1", "first-order relative effect of shear and rotary inertia"),
+)
+
+
+def modal_dataset(result: ModalResult) -> xarray.Dataset:
+    """Return a modal result as a Dataset over modes and position.
+
+    Raises
+    ------
+    InputError
+        If xarray is not installed.
+    """
+    xr = import_extra("xarray")
+    modes = result.modes
+    data: dict[str, Any] = {
+        name: ("mode", [_nan(getattr(m, name)) for m in modes], {"units": unit, "long_name": text})
+        for name, unit, text in _SCALARS
+    }
+    data["family"] = ("mode", [m.family for m in modes])
+    data["number"] = ("mode", [m.number for m in modes], {"long_name": "0 for rigid modes"})
+    data["kind"] = ("mode", [m.kind for m in modes])
+    data["bracket_omega2"] = (
+        ("mode", "bound"),
+        [m.bracket_omega2 for m in modes],
+        {"units": "rad^2/s^2", "long_name": "encloses the eigenvalue of the segment chain"},
+    )
+    data["counts"] = (
+        ("mode", "bound"),
+        [m.counts for m in modes],
+        {"units": "1", "long_name": "eigenvalues below either end of the bracket"},
+    )
+    for family, components in COMPONENTS.items():
+        for i, (symbol, unit, text) in enumerate(components):
+            shapes = np.array([_component(m, family, i, len(result.x)) for m in modes])
+            data[symbol] = (("mode", "x"), shapes, {"units": unit, "long_name": text})
+    coordinates = {
+        "mode": [m.name + (" (longitudinal)" if _ambiguous(m) else "") for m in modes],
+        "x": ("x", result.x, {"units": "m", "long_name": "position from the left end (nose)"}),
+        "bound": ["low", "high"],
+    }
+    dataset: xarray.Dataset = xr.Dataset(data, coordinates, attrs=_attributes(result))
+    return dataset
+
+
+def _ambiguous(mode: Mode) -> bool:
+    return mode.family == "longitudinal" and mode.number == 0
+
+
+def _component(mode: Mode, family: str, index: int, points: int) -> Any:
+    return mode.states[:, index] if mode.family == family else np.full(points, np.nan)
+
+
+def _attributes(result: ModalResult) -> dict[str, Any]:
+    return {
+        "title": f"Natural modes of {result.beam.name}",
+        "source": f"antinode {__version__}",
+        "method": result.method,
+        "tolerance": result.tolerance,
+        "normalisation": result.normalisation,
+        "warnings": "\n".join(result.warnings),
+    }
+
+
+def _nan(value: float | None) -> float:
+    return math.nan if value is None else value
+
+
+def import_extra(module: str) -> Any:
+    """Import a library of the `dataset` extra, or say how to install it."""
+    import importlib
+
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        raise InputError(
+            f"{module} is not installed; add it with: pip install 'antinode[dataset]'"
+        ) from error
+
+
+def modal_table(result: ModalResult) -> str:
+    """Return the modes as CSV with units in the header, one row a mode."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    units = ["" if unit == "1" else f" [{unit}]" for _, unit, _ in _SCALARS]
+    header = [name + unit for (name, _, _), unit in zip(_SCALARS, units, strict=True)]
+    writer.writerow(["family", "number", "name", "kind", *header])
+    for m in result.modes:
+        values = [_nan(getattr(m, name)) for name, _, _ in _SCALARS]
+        cells = ["" if math.isnan(v) else repr(float(v)) for v in values]
+        writer.writerow([m.family, m.number, m.name, m.kind, *cells])
+    return out.getvalue()
+
+
+def to_json(data: dict[str, Any]) -> str:
+    """Return strict JSON (no NaN) of a result's dictionary."""
+    return json.dumps(data, indent=2, allow_nan=False, default=_plain)
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} cannot be written as JSON")
+
+
+def write_result(
+    path: Path,
+    data: dict[str, Any],
+    table: Callable[[], str],
+    dataset: Callable[[], xarray.Dataset],
+) -> None:
+    """Write a result to .json, .csv or .nc, whole or not at all.
+
+    Raises
+    ------
+    InputError
+        If the ending is another, the folder is missing, or a library for it is not installed.
+    """
+    writers: dict[str, Callable[[Path], None]] = {
+        ".json": lambda p: _write_text(p, to_json(data) + "\n"),
+        ".csv": lambda p: _write_text(p, table()),
+        ".nc": lambda p: _write_netcdf(p, dataset()),
+    }
+    check_output(path, writers)
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        writers[path.suffix.lower()](partial)
+        partial.replace(path)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def check_output(path: Path, endings: Any) -> None:
+    """Raise InputError if a file of this name cannot be written, before any work is done."""
+    if path.suffix.lower() not in endings:
+        allowed = ", ".join(endings)
+        raise InputError(f"{path}: the ending says what to write; allowed are {allowed}")
+    if path.is_dir() or not path.parent.is_dir():
+        what = "is a folder" if path.is_dir() else f"lies in no existing folder ({path.parent})"
+        raise InputError(f"{path}: {what}; name a file in an existing folder")
+
+
+def _write_text(path: Path, text: str) -> None:
+    path.write_text(text, encoding="utf-8")
+
+
+def _write_netcdf(path: Path, dataset: xarray.Dataset) -> None:
+    import_extra("h5netcdf")
+    dataset.to_netcdf(path, engine="h5netcdf")
