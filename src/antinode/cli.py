@@ -34,11 +34,18 @@ Set = Annotated[
         name="--set",
         help="Override an input, e.g. --set condition.speed=100m/s (repeatable).",
         negative="",
-        consume_multiple=False,
+        show_default=False,
     ),
 ]
 Json = Annotated[
-    bool, Parameter(name="--json", help="Print one JSON object.", negative="", group=_output)
+    bool,
+    Parameter(
+        name="--json",
+        help="Print one JSON object.",
+        negative="",
+        show_default=False,
+        group=_output,
+    ),
 ]
 Out = Annotated[
     Path | None,
@@ -81,6 +88,7 @@ Shapes = Annotated[
 @app.command
 def modes(
     case: Path,
+    /,
     *,
     set_: Set = (),
     json: Json = False,
@@ -127,6 +135,7 @@ def modes(
 @app.command
 def beam(
     file: Path,
+    /,
     *,
     set_: Set = (),
     json: Json = False,
@@ -170,6 +179,7 @@ def beam(
 @app.command
 def loads(
     case: Path,
+    /,
     *,
     set_: Set = (),
     json: Json = False,
@@ -211,6 +221,7 @@ def loads(
 @app.command
 def init(
     folder: Path = Path(),
+    /,
     *,
     beam: Annotated[bool, Parameter(help="Write a beam file instead.", negative="")] = False,
     example: Annotated[str | None, Parameter(help="Name of another example.")] = None,
@@ -233,7 +244,7 @@ def init(
 
 
 @app.command
-def schema(of: str = "case") -> None:
+def schema(of: str = "case", /) -> None:
     """Print the JSON schema of an input file, every key with its unit and range.
 
     Example: **antinode schema case**

@@ -81,13 +81,14 @@ def plot_modes(result: ModalResult, most: int = 6) -> Figure:
     plt = _pyplot()
     with plt.rc_context(_STYLE):
         longitudinal = [m for m in result.family("longitudinal") if m.number]
-        rows = 4 if longitudinal else 3
+        rows = 2 + bool(longitudinal) + (not result.beam.is_unloaded)
         figure: Figure
         figure, axes = plt.subplots(
             rows, 1, figsize=(8.0, 2.1 * rows + 0.6), sharex=True, layout="constrained"
         )
         _shape_panels(result, axes, most)
-        _axial_force_of_beam(result, axes[-1])
+        if not result.beam.is_unloaded:
+            _axial_force_of_beam(result, axes[-1])
         axes[-1].set_xlabel("x from the left end [m]")
         figure.suptitle(f"{result.beam.name}: natural modes", fontweight="bold", x=0.01, ha="left")
     return figure

@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from .beam import Beam
 from .errors import ComputationError, InputError
-from .result import Kind, Method, ModalResult, Mode, Normalisation
+from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .riccati.chain import Chain, Family, omega2_scale
 from .riccati.literal import find_eigenvalues_tmm
 from .riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
@@ -88,17 +88,27 @@ def solve_modes(
     grid = _output_grid(beam, modes)
     found: list[Mode] = []
     segments: dict[str, int] = {}
+    solutions: dict[Family, Solution] = {}
     warnings: list[str] = []
     for family in chosen:
         solved = _solve_family(beam, family, modes, tolerance, method)
-        found += _modes_of(beam, solved, grid, modes, normalisation)
+        named, solutions[family] = _modes_of(beam, solved, grid, modes, normalisation)
+        found += named
         segments[family] = len(solved.chain.length)
         warnings += solved.warnings
     if unloaded:
         found = _compare_unloaded(beam, found, modes, tolerance)
     warnings += _result_warnings(beam, found)
     return ModalResult(
-        beam, tuple(found), grid, method, tolerance, normalisation, segments, tuple(warnings)
+        beam=beam,
+        modes=tuple(found),
+        x=grid,
+        method=method,
+        tolerance=tolerance,
+        normalisation=normalisation,
+        segments=segments,
+        solutions=solutions,
+        warnings=tuple(warnings),
     )
 
 
@@ -225,7 +235,7 @@ def _output_grid(beam: Beam, modes: int) -> Array:
 
 def _modes_of(
     beam: Beam, solved: _Solved, grid: Array, modes: int, normalisation: Normalisation
-) -> list[Mode]:
+) -> tuple[list[Mode], Solution]:
     """Name the eigenvalues, attach shapes and everything that follows from them."""
     family = solved.chain.family
     names = _names(beam, family, solved.eigenvalues)
@@ -239,14 +249,14 @@ def _modes_of(
     states = _shapes(beam, chain, solved.eigenvalues, keep, names)
     squares = integrate_squares(chain, states, omega2)
     scale = _normalising_factors(chain, states, squares, normalisation)
+    states = states * scale[:, None]
     at_grid = np.searchsorted(chain.nodes, grid - grid[0] - 1e-9 * beam.length)
     rows = []
     for column, k in enumerate(keep):
         one = Squares(*(part[:, column] * scale[column] ** 2 for part in squares))
         name, number = names[k]
-        shape = states[at_grid, column] * scale[column]
-        rows.append(_mode(beam, chain, solved, k, name, number, shape, one))
-    return rows
+        rows.append(_mode(beam, chain, solved, k, name, number, states[at_grid, column], one))
+    return rows, Solution(chain, omega2, states)
 
 
 def _names(beam: Beam, family: Family, eigenvalues: list[Eigenvalue]) -> list[tuple[str, int]]:

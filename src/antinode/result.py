@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from .beam import Beam
 from .errors import InputError
-from .riccati.chain import Family
+from .riccati.chain import Chain, Family
+from .riccati.shapes import propagate
 
 if TYPE_CHECKING:
     import xarray
@@ -148,6 +149,32 @@ def error_of_root(square: float, error: float) -> float:
 
 
 @dataclass(frozen=True)
+class Solution:
+    """The modes of one family along the chain that was solved: exact between its nodes.
+
+    Attributes
+    ----------
+    chain : Chain
+        Uniform segments, from x = 0.
+    omega2 : array, shape (k,)
+        [rad^2/s^2], of the modes in their order.
+    states : array, shape (n + 1, k, s)
+        At the nodes, SI, as normalised.
+    """
+
+    chain: Chain
+    omega2: Array
+    states: Array = field(repr=False)
+
+    def at(self, x: Array) -> Array:
+        """Return the states at positions from the left end [m], shape (points, k, s)."""
+        nodes = self.chain.nodes
+        segment = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, len(nodes) - 2)
+        start = self.states[segment]
+        return propagate(self.chain, start, self.omega2, x - nodes[segment], segment)
+
+
+@dataclass(frozen=True)
 class ModalResult:
     """The modes of a beam, in order of family and omega^2.
 
@@ -161,6 +188,8 @@ class ModalResult:
         As asked for.
     segments : dict
         Number of uniform segments that represent the beam, by family.
+    solutions : dict
+        The `Solution` of each family, which `at` evaluates.
     warnings : tuple of str
         What a user should know before trusting the numbers, and what to do about it.
     """
@@ -172,6 +201,7 @@ class ModalResult:
     tolerance: float
     normalisation: Normalisation
     segments: dict[str, int]
+    solutions: dict[Family, Solution] = field(repr=False)
     warnings: tuple[str, ...]
 
     def __str__(self) -> str:
@@ -196,6 +226,26 @@ class ModalResult:
                 return mode
         have = ", ".join(m.name for m in self.modes if m.number)
         raise InputError(f"there is no mode {family} {number} in this result; it has {have}")
+
+    def at(self, x: npt.ArrayLike, family: Family = "bending") -> Array:
+        """Evaluate the modes of a family anywhere along the beam.
+
+        Parameters
+        ----------
+        x : array_like, shape (points,)
+            Positions [m] on the beam.
+        family : {"bending", "longitudinal"}
+
+        Returns
+        -------
+        array, shape (points, modes, 4) or (points, modes, 2)
+            Y, theta, M, Q_y or X, Q_x of every mode of `ModalResult.family`, exact for the chain.
+        """
+        points = np.atleast_1d(np.asarray(x, dtype=float)) - self.beam.x[0]
+        if np.any((points < 0) | (points > self.beam.length * (1 + 1e-12))):
+            low, high = self.beam.x[0], self.beam.x[-1]
+            raise InputError(f"x must lie on the beam, from {low:g} to {high:g} m")
+        return self.solutions[family].at(points)
 
     def frequencies_hz(self, family: Family = "bending") -> Array:
         """Return the frequencies of modes 1, 2, ... of a family [Hz], NaN where divergent."""

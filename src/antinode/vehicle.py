@@ -39,7 +39,11 @@ def angle_within(limit: float) -> WrapValidator:
         if abs(angle) <= limit * (1 + 1e-12):
             return angle
         allowed = f"must lie within -{limit:.4g} and {limit:.4g} rad ({math.degrees(limit):.4g} deg"
-        hint = "" if isinstance(value, str) else f"; a plain number is in radians: '{value} deg'?"
+        hint = (
+            ""
+            if isinstance(value, str)
+            else f"; a plain number is in radians: did you mean '{value} deg'?"
+        )
         raise ValueError(f"received {value}; the angle {allowed} either way){hint}")
 
     return WrapValidator(check)

@@ -30,7 +30,7 @@ SIZE_RANGE = Range(
     0.005,
     0.1,
     "engineering choice: the formulas are asymptotic for slender cavities (length over diameter "
-    "about 7 at 0.1), and below 0.005 a cavity some 500 disks long is hardly steady; the source "
+    "about 5 at 0.1), and below 0.005 a cavity some 400 disks long is hardly steady; the source "
     "gives none",
     "take the cavity's size as an extrapolation",
 )

@@ -1,8 +1,8 @@
 """Drag and lift of fins that stand out of the cavity, each fin by itself.
 
 ``F_fX = C_fX (rho V^2 / 2) h_f d_f`` with ``C_fX = 0.185 (1 + 2 sigma)``, where h_f is the length
-of the fin outside the cavity, between 0 and its span. A fin at the roll angle phi (0 up) has a normal,
-taken upwards, whose vertical part is abs(sin(phi)): the fin meets the flow at
+of the fin outside the cavity, between 0 and its span. A fin at the roll angle phi (0 up) has a
+normal, taken upwards, whose vertical part is abs(sin(phi)): the fin meets the flow at
 theta abs(sin(phi)) + deflection, and gives abs(sin(phi)) of its force as lift.
 
 Source: "Analysis of the Natural Vibration Characteristics of a Supercavitating Underwater Vehicle

@@ -159,7 +159,12 @@ def block_starts(chain: Chain, omega2: float) -> Integers:
     return np.union1d(starts, np.flatnonzero(unsafe[block]))
 
 
-def segment_transfers(chain: Chain, omega2: Array, length: Array | None = None) -> Array:
+def segment_transfers(
+    chain: Chain,
+    omega2: Array,
+    length: Array | None = None,
+    segment: Integers | slice = slice(None),
+) -> Array:
     """Return the scaled transfer matrix of every segment at every `omega2`.
 
     Parameters
@@ -168,6 +173,8 @@ def segment_transfers(chain: Chain, omega2: Array, length: Array | None = None) 
         [rad^2/s^2], any sign.
     length : array, shape (n,), optional
         Distance into each segment [m]; its whole length by default.
+    segment : array of int, shape (n,), optional
+        Which segments; all by default.
 
     Returns
     -------
@@ -176,14 +183,12 @@ def segment_transfers(chain: Chain, omega2: Array, length: Array | None = None) 
         `Chain.scale_length` and EI0 from `Chain.reference`.
     """
     scale, (stiffness, _) = chain.scale_length(omega2), chain.reference()
-    h = (chain.length if length is None else length)[:, None] / scale
-    rigidity = chain.stiffness[:, None] / stiffness
+    h = (chain.length[segment] if length is None else length)[:, None] / scale
+    rigidity, mass = chain.stiffness[segment, None] / stiffness, chain.mass[segment, None]
     if chain.family == "longitudinal":
-        return longitudinal_transfer(
-            h, rigidity, chain.mass[:, None] * (omega2 * scale**2 / stiffness)
-        )
-    N = chain.axial_force[:, None] * (scale**2 / stiffness)
-    return bending_transfer(h, rigidity, N, chain.mass[:, None] * (omega2 * scale**4 / stiffness))
+        return longitudinal_transfer(h, rigidity, mass * (omega2 * scale**2 / stiffness))
+    N = chain.axial_force[segment, None] * (scale**2 / stiffness)
+    return bending_transfer(h, rigidity, N, mass * (omega2 * scale**4 / stiffness))
 
 
 def state_units(chain: Chain, omega2: Array) -> Array:

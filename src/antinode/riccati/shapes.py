@@ -294,8 +294,14 @@ def _squares(chain: Chain, z: Array) -> Array:
     return np.stack([Y**2, theta**2, M**2, (Q - chain.axial_force[:, None] * theta) ** 2])
 
 
-def propagate(chain: Chain, states: Array, omega2: Array, distance: Array) -> Array:
-    """Return the states a `distance` into each segment from those at its left end, (n, k, s)."""
+def propagate(
+    chain: Chain,
+    states: Array,
+    omega2: Array,
+    distance: Array,
+    segment: Integers | slice = slice(None),
+) -> Array:
+    """Return the states a `distance` [m] into segments from those at their left ends, (n, k, s)."""
     units = state_units(chain, omega2)
-    U = segment_transfers(chain, omega2, distance)
+    U = segment_transfers(chain, omega2, distance, segment)
     return np.asarray(np.einsum("nkij,nkj->nki", U, states / units) * units)
