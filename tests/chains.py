@@ -106,6 +106,8 @@ def _draw_chain(rng, n, steep, near):
     order = _draw_order(rng, n)
     if steep and _largest_step(EI[order]) < STEEP:
         order = np.arange(n)
+    if near and h[order] @ N[order] < 0:
+        N = -N
     left, right = map(str, rng.choice(ENDS, 2))
     if n > 1 and order[-1] == 0:  # two like halves, often with a heavy middle between them
         right = left
@@ -152,14 +154,12 @@ def _two_levels(rng, n, lo, hi):
 
 
 def _draw_force(rng, h, EI, near):
-    """Axial force: a pattern of largest value 1 times an Euler load; in net push if `near`."""
+    """Axial force: a pattern times an Euler load; not zero, and of any size, if `near`."""
     n, x = len(h), np.cumsum(h) / h.sum()
     constant, linear = np.ones(n), np.linspace(1, rng.uniform(-1, 1), n)
     wave, random = np.sin(2 * np.pi * (x + rng.random())), rng.uniform(-1, 1, n)
     kind = rng.integers(4 if near else 5)
     pattern = (constant, linear, wave, random, np.zeros(n))[kind]
-    if near and h @ pattern < 0:
-        pattern = -pattern
     euler = math.pi**2 / (h.sum() * (h / EI).sum())
     usual = _log_uniform(rng, 0.01, 10) if rng.random() < 0.6 else _log_uniform(rng, 1, 300)
     size = 1 if near else rng.choice([-1, 1, 1]) * usual
