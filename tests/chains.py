@@ -109,18 +109,19 @@ def _draw_chain(rng, n, steep, near):
     if near and h[order] @ N[order] < 0:
         N = -N
     left, right = map(str, rng.choice(ENDS, 2))
-    if n > 1 and order[-1] == 0:  # two like halves, often with a heavy middle between them
-        right = left
-        m[n // 3 : n - n // 3] *= 1 if two_masses else _log_uniform(rng, 1, 1e5)
+    if n > 1 and order[-1] == 0:  # two like halves, if not steep with a rigid, heavy middle
+        right, middle, contrast = left, slice(n // 3, n - n // 3), _log_uniform(rng, 1, 1e4)
+        EI[middle] *= 1 if steep else contrast
+        m[middle] *= 1 if two_masses else contrast**0.7
     return BeamChain(*(tuple(values[order].tolist()) for values in (h, EI, m, N)), left, right)
 
 
 def _draw_order(rng, n):
     """Segments as drawn, mirrored about the middle, or in periods: for close eigenvalues."""
     at, kind = np.arange(n), rng.random()
-    if kind < 0.12:
+    if kind < 0.2:
         return np.minimum(at, at[::-1])
-    return at % rng.integers(2, 9) if kind < 0.24 else at
+    return at % rng.integers(2, 9) if kind < 0.3 else at
 
 
 def _mild(rng, n):
@@ -199,6 +200,8 @@ def _count(chain, omega2):
 def _draw_omega2(rng, spectrum, near):
     """(where, omega^2, room): see `_KINDS`."""
     target = str(rng.choice(_KINDS[:5] if near else _KINDS))
+    if _is_symmetric(spectrum.chain) and rng.random() < 0.6:
+        target = "narrow"
     if target == "singular" and (found := _singular(rng, spectrum)):
         return target, *found
     negative, rigid = spectrum.negative, spectrum.zeros
@@ -218,6 +221,11 @@ def _draw_omega2(rng, spectrum, near):
 
 
 _KINDS = ("below the first", "negative", "about zero", "narrow", "singular", "high", "between")
+
+
+def _is_symmetric(chain):
+    h, EI = chain.h, chain.EI
+    return len(h) > 1 and h == h[::-1] and EI == EI[::-1] and chain.left == chain.right
 
 
 def _singular(rng, spectrum):

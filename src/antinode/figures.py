@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .case import Case
+    from .vehicle import FinSet, Vehicle
 
 ENDINGS = (".png", ".svg", ".pdf")
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#5A5A5A")
@@ -102,10 +103,10 @@ def plot_case(case: Case, result: ModalResult, most: int = 6) -> Figure:
         figure, axes = plt.subplots(
             5,
             1,
-            figsize=(8.4, 11.4),
+            figsize=(8.4, 10.8),
             sharex=True,
             layout="constrained",
-            height_ratios=(1.25, 1, 1, 1, 1),
+            height_ratios=(0.7, 1, 1, 1, 1),
         )
         draw_vehicle(case, axes[0])
         draw_axial_force(case, axes[1])
@@ -123,10 +124,10 @@ def plot_loads(case: Case) -> Figure:
         figure, axes = plt.subplots(
             4,
             1,
-            figsize=(8.4, 9.2),
+            figsize=(8.4, 8.6),
             sharex=True,
             layout="constrained",
-            height_ratios=(1.25, 1, 1, 1),
+            height_ratios=(0.7, 1, 1, 1),
         )
         draw_vehicle(case, axes[0])
         draw_axial_force(case, axes[1])
@@ -234,24 +235,23 @@ def draw_vehicle(case: Case, axes: Axes) -> None:
     axes.fill_between(xb, -body, body, color="#B8BEC7", edgecolor="#4B5563", linewidth=0.8)
     D_n = vehicle.cavitator.diameter
     axes.plot([0, 0], [-D_n / 2, D_n / 2], color="#111827", linewidth=2.5, solid_capstyle="butt")
-    for load in loads.fins:
-        _draw_fins(axes, vehicle, load)
+    for fins, load in zip(vehicle.fins, loads.fins, strict=True):
+        _draw_fins(axes, vehicle, fins, load.position)
     axes.set_aspect("equal", adjustable="datalim")
     axes.grid(visible=False)
     axes.set(title="Vehicle in its cavity (to scale)", ylabel="height [m]")
 
 
-def _draw_fins(axes: Axes, vehicle: Any, load: Any) -> None:
-    fins = load.fins
-    root = float(vehicle.radius_at(load.x))
-    chord = fins.chord or (fins.tip_radius - root)
+def _draw_fins(axes: Axes, vehicle: Vehicle, fins: FinSet, x: float) -> None:
+    """Draw each fin as it is seen from the side; those that point at the viewer are edges."""
+    root = float(vehicle.radius_at(x))
+    half = (fins.chord or (fins.tip_radius - root)) / 2
     for angle in fins.roll_angles:
         low, high = sorted((root * np.cos(angle), fins.tip_radius * np.cos(angle)))
         axes.fill(
-            [load.x - chord / 2, load.x + chord / 2, load.x + chord / 2, load.x - chord / 2],
+            [x - half, x + half, x + half, x - half],
             [low, low, high, high],
             color="#7C8592",
             edgecolor="#4B5563",
             linewidth=0.6,
-            alpha=0.9,
         )

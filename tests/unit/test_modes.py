@@ -2,6 +2,7 @@
 
 import json
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -66,7 +67,7 @@ def test_certificates_follow_each_other():
     for family in ("bending", "longitudinal"):
         counts = [m.counts for m in result.family(family)]
         assert counts[0][0] == 0
-        assert all(a[1] == b[0] for a, b in zip(counts, counts[1:], strict=False))
+        assert all(a[1] == b[0] for a, b in pairwise(counts))
     for mode in result.modes:
         low, high = mode.bracket_omega2
         assert low <= mode.omega2 <= high
