@@ -24,6 +24,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from .points import Point, StepKind, hold
 from .segment import (
     LONGEST_STEP,
     bending_transfer,
@@ -59,6 +60,8 @@ class Chain:
     left, right : str
         Keys of `ZERO_COMPONENTS` of the family.
     family : {"bending", "longitudinal"}
+    points : tuple of Point
+        What sits at the nodes, at most one for each node, in order.
     """
 
     length: Array
@@ -68,6 +71,7 @@ class Chain:
     left: str = "free"
     right: str = "free"
     family: Family = "bending"
+    points: tuple[Point, ...] = ()
 
     @property
     def nodes(self) -> Array:
@@ -80,7 +84,11 @@ class Chain:
             name: np.repeat(getattr(self, name), pieces)
             for name in ("mass", "stiffness", "axial_force")
         }
-        return replace(self, length=np.repeat(self.length / pieces, pieces), **arrays)
+        first = np.concatenate([[0], np.cumsum(pieces)])
+        points = tuple(replace(p, node=int(first[p.node])) for p in self.points)
+        return replace(
+            self, length=np.repeat(self.length / pieces, pieces), points=points, **arrays
+        )
 
     def cut_at(self, positions: Array) -> Chain:
         """Return the same chain with a joint at each of the positions [m] as well."""
@@ -92,7 +100,9 @@ class Chain:
         arrays: dict[str, Any] = {
             name: getattr(self, name)[owner] for name in ("mass", "stiffness", "axial_force")
         }
-        return replace(self, length=np.diff(cuts), **arrays)
+        places = np.searchsorted(cuts, nodes - 1e-13 * nodes[-1])
+        points = tuple(replace(p, node=int(places[p.node])) for p in self.points)
+        return replace(self, length=np.diff(cuts), points=points, **arrays)
 
     def reference(self) -> tuple[float, float]:
         """Return stiffness and mass per length that scale the equations (means over the length)."""
@@ -143,8 +153,8 @@ def block_starts(chain: Chain, omega2: float) -> Integers:
     """
     phase = np.cumsum(largest_wave_number(chain, omega2) * chain.length)
     first = np.flatnonzero(np.diff(np.floor(phase / _BLOCK_PHASE), prepend=-1.0))
-    first[0] = 0
-    starts: Integers = np.unique(first)
+    inner = [p.node for p in chain.points if 0 < p.node < len(chain.length)]
+    starts: Integers = np.unique(np.concatenate([[0], first[1:], inner]).astype(np.int64))
     worst = replace(
         chain,
         length=np.add.reduceat(chain.length, starts),
@@ -238,23 +248,94 @@ def end_frame(chain: Chain, end: str, lanes: int) -> Array:
     return np.broadcast_to(np.eye(size)[:, free], (lanes, size, len(free))).copy()
 
 
+class Steps(NamedTuple):
+    """Blocks of segments and points in the order in which a sweep passes them."""
+
+    U: Array
+    """Transfer matrix of every step, shape (steps, lanes, s, s)."""
+    kind: list[StepKind]
+    holds: list[tuple[int, ...]]
+    """Displacements held by every step that is a support."""
+
+    def reversed(self) -> Steps:
+        """Return the steps as the sweep from the right end passes them."""
+        J = symplectic_form(self.U.shape[-1])
+        inverse = -J @ np.swapaxes(self.U, -1, -2) @ J
+        return Steps(inverse[::-1], self.kind[::-1], self.holds[::-1])
+
+
+def symplectic_form(size: int) -> Array:
+    """Return J with ``U^T J U = J`` for every transfer matrix; ``J^-1 = -J``."""
+    if size == 2:
+        return np.array([[0.0, 1.0], [-1.0, 0.0]])
+    J = np.zeros((4, 4))
+    J[0, 3], J[3, 0], J[1, 2], J[2, 1] = -1.0, 1.0, 1.0, -1.0
+    return J
+
+
+def make_steps(chain: Chain, omega2: Array, blocks: Array, starts: Integers) -> Steps:
+    """Put the points of a chain between its blocks."""
+    if not chain.points:
+        return Steps(blocks, ["block"] * len(blocks), [()] * len(blocks))
+    units = state_units(chain, omega2)
+    at = {point.node: point for point in chain.points}
+    matrices: list[Array] = []
+    kinds: list[StepKind] = []
+    holds: list[tuple[int, ...]] = []
+    for k, node in enumerate([*starts.tolist(), len(chain.length)]):
+        steps = at[node].steps(blocks.shape[-1], omega2, units) if node in at else ()
+        for kind, matrix in steps:
+            matrices.append(matrix)
+            kinds.append(kind)
+            holds.append(at[node].holds if kind == "support" else ())
+        if k < len(blocks):
+            matrices.append(blocks[k])
+            kinds.append("block")
+            holds.append(())
+    return Steps(np.stack(matrices), kinds, holds)
+
+
 class Sweep(NamedTuple):
-    """Frames at the block boundaries: ``F[i + 1] R[i + 1] = U[i] F[i]``."""
+    """Frames between the steps: ``F[i + 1] R[i + 1] = U[i] F[i]``."""
 
     F: Array
-    """Orthonormal frames, shape (blocks + 1, lanes, s, d)."""
+    """Orthonormal frames, shape (steps + 1, lanes, s, d)."""
     R: Array
-    """Changes of basis, upper triangular, shape (blocks + 1, lanes, d, d); R[0] = 1."""
+    """Changes of basis, upper triangular, shape (steps + 1, lanes, d, d); R[0] = 1."""
+    back: Array
+    """Coefficients before step i are ``back[i + 1]`` times those after it."""
+    factor: Array
+    """Characteristic functions of parts that supports cut off, multiplied, shape (lanes,)."""
 
 
-def sweep(U: Array, start: Array) -> Sweep:
-    """Carry the frame of one end through the blocks: the Riccati recursion (equation 74)."""
-    F = np.empty((len(U) + 1, *start.shape))
-    R = np.empty((len(U) + 1, *start.shape[:-2], start.shape[-1], start.shape[-1]))
-    F[0], R[0] = start, np.eye(start.shape[-1])
-    for i, block in enumerate(U):
-        F[i + 1], R[i + 1] = orthonormalise(block @ F[i])
-    return Sweep(F, R)
+def sweep(steps: Steps, start: Array) -> Sweep:
+    """Carry the frame of one end through the steps: the Riccati recursion (equation 74)."""
+    d = start.shape[-1]
+    F = np.empty((len(steps.U) + 1, *start.shape))
+    R = np.empty((len(steps.U) + 1, len(start), d, d))
+    F[0], R[:] = start, np.eye(d)
+    factor = np.ones(len(start))
+    held: dict[int, Array] = {}
+    for i, (U, rows) in enumerate(zip(steps.U, steps.holds, strict=True)):
+        if rows:
+            F[i + 1], held[i + 1], cut = hold(F[i], rows)
+            factor = factor * cut
+        else:
+            F[i + 1], R[i + 1] = orthonormalise(U @ F[i])
+    back = inverse_upper(R)
+    for i, matrix in held.items():
+        back[i] = matrix
+    return Sweep(F, R, back, factor)
+
+
+def inverse_upper(R: Array) -> Array:
+    """Return the inverse of upper triangular 1x1 or 2x2 matrices."""
+    inverse = np.zeros_like(R)
+    for j in range(R.shape[-1]):
+        inverse[..., j, j] = 1.0 / R[..., j, j]
+    if R.shape[-1] == 2:
+        inverse[..., 0, 1] = -R[..., 0, 1] * inverse[..., 0, 0] * inverse[..., 1, 1]
+    return inverse
 
 
 def minor(F: Array, rows: list[int]) -> Array:
@@ -265,22 +346,36 @@ def minor(F: Array, rows: list[int]) -> Array:
     return F[..., i, 0] * F[..., j, 1] - F[..., i, 1] * F[..., j, 0]
 
 
-def negative_at_joints(U: Array, frames: Sweep) -> Integers:
-    """Count the negative eigenvalues met while the joints are condensed, shape (lanes,)."""
-    F, R = frames
+def negative_at_nodes(steps: Steps, frames: Sweep) -> Integers:
+    """Count the negative eigenvalues met while the nodes are condensed, shape (lanes,)."""
+    kind = np.array(steps.kind)
+    block, joint = np.flatnonzero(kind == "block"), np.flatnonzero(kind == "joint")
+    in_blocks = _negative_in_blocks(steps.U[block], frames.F, frames.R, block)
+    before, after = (_sign_at_joint(frames.F[joint + side]) for side in (0, 1))
+    return np.asarray(in_blocks + np.sum(before * after < 0, axis=0), dtype=np.int64)
+
+
+def _negative_in_blocks(U: Array, F: Array, R: Array, block: Integers) -> Integers:
+    here, following = F[block], F[block + 1]
     if F.shape[-1] == 1:
-        return np.asarray(np.sum(F[:-1, :, 0, 0] * F[1:, :, 0, 0] < 0, axis=0), dtype=np.int64)
-    determinant = minor(F, [0, 1])
+        return np.asarray(np.sum(here[..., 0, 0] * following[..., 0, 0] < 0, axis=0))
     P_adjugate = np.empty((*U.shape[:-2], 2, 2))  # P adj(U12); det U12 > 0 in every block
     P_adjugate[..., 0, 0], P_adjugate[..., 0, 1] = U[..., 1, 2], -U[..., 0, 2]
     P_adjugate[..., 1, 0], P_adjugate[..., 1, 1] = U[..., 1, 3], -U[..., 0, 3]
-    A_next = F[1:, :, :2] @ R[1:]
-    trace = np.sum(F[:-1, :, :2] * (P_adjugate @ A_next), axis=(-2, -1))
-    indefinite = determinant[:-1] * determinant[1:] < 0
-    negative = np.where(indefinite, 1, np.where(trace < 0, 2, 0))
-    held = determinant[0] == 0.0  # the first joint of a beam that is not free: one or no freedom
-    negative[0] = np.where(held, trace[0] < 0, negative[0])
-    return np.asarray(np.sum(negative, axis=0), dtype=np.int64)
+    A_next = following[:, :, :2] @ R[block + 1]
+    trace = np.sum(here[:, :, :2] * (P_adjugate @ A_next), axis=(-2, -1))
+    before, after = minor(here, [0, 1]), minor(following, [0, 1])
+    negative = np.where(before * after < 0, 1, np.where(trace < 0, 2, 0))
+    held = before == 0.0  # a supported node has one freedom, or none
+    return np.asarray(np.sum(np.where(held, trace < 0, negative), axis=0))
+
+
+def _sign_at_joint(F: Array) -> Array:
+    """Return det A, or the slope of the only free state where the deflection is held."""
+    if F.shape[-1] == 1:
+        return F[..., 0, 0]
+    determinant = minor(F, [0, 1])
+    return np.where(determinant == 0.0, F[..., 1, 0] + F[..., 1, 1], determinant)
 
 
 def negative_at_end(F: Array, family: Family, right: str) -> Integers:
@@ -333,11 +428,14 @@ def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
 
 
 def _evaluate(fine: Chain, omega2: Array, largest: float) -> Evaluation:
-    U = multiply_groups(segment_transfers(fine, omega2), block_starts(fine, largest))
-    frames = sweep(U, end_frame(fine, fine.left, len(omega2)))
+    starts = block_starts(fine, largest)
+    blocks = multiply_groups(segment_transfers(fine, omega2), starts)
+    steps = make_steps(fine, omega2, blocks, starts)
+    frames = sweep(steps, end_frame(fine, fine.left, len(omega2)))
     last = frames.F[-1]
-    count = negative_at_joints(U, frames) + negative_at_end(last, fine.family, fine.right)
-    return Evaluation(count, minor(last, ZERO_COMPONENTS[fine.family][fine.right]))
+    below = negative_at_nodes(steps, frames) + negative_at_end(last, fine.family, fine.right)
+    rows = ZERO_COMPONENTS[fine.family][fine.right]
+    return Evaluation(below, frames.factor * minor(last, rows))
 
 
 def count_below(chain: Chain, omega2: npt.ArrayLike) -> Integers:

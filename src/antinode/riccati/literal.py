@@ -15,11 +15,12 @@ from .chain import (
     Array,
     Chain,
     evaluate,
+    make_steps,
     omega2_scale,
     segment_transfers,
     split_long,
 )
-from .roots import Eigenvalue
+from .roots import CountingError, Eigenvalue
 
 
 def _left_partition(chain: Chain) -> tuple[list[int], list[int]]:
@@ -27,6 +28,16 @@ def _left_partition(chain: Chain) -> tuple[list[int], list[int]]:
     zero = ZERO_COMPONENTS[chain.family][chain.left]
     size = 4 if chain.family == "bending" else 2
     return [i for i in range(size) if i not in zero], zero
+
+
+def _all_steps(fine: Chain, lanes: Array) -> Array:
+    """Return the matrices of all segments and points from left to right, (steps, k, s, s)."""
+    steps = make_steps(fine, lanes, segment_transfers(fine, lanes), np.arange(len(fine.length)))
+    if "support" in steps.kind:
+        raise CountingError(
+            "a support inside the span has no transfer matrix; use the default method"
+        )
+    return steps.U
 
 
 def tmm_characteristic(chain: Chain, omega2: npt.ArrayLike) -> Array:
@@ -47,7 +58,7 @@ def tmm_characteristic(chain: Chain, omega2: npt.ArrayLike) -> Array:
     lanes = np.atleast_1d(np.asarray(omega2, dtype=float))
     fine = split_long(chain, float(np.max(np.abs(lanes))))
     U_all = np.eye(4 if chain.family == "bending" else 2)
-    for U in segment_transfers(fine, lanes):
+    for U in _all_steps(fine, lanes):
         U_all = U @ U_all
         U_all = U_all / np.max(np.abs(U_all), axis=(-2, -1), keepdims=True)
     free, _ = _left_partition(chain)
@@ -76,7 +87,7 @@ def riccati_characteristic(chain: Chain, omega2: npt.ArrayLike) -> Array:
     a, b = _left_partition(chain)
     S = np.zeros((len(lanes), len(b), len(a)))
     sign = np.ones(len(lanes))
-    for U in segment_transfers(fine, lanes):
+    for U in _all_steps(fine, lanes):
         U11, U12 = U[:, a][:, :, a], U[:, a][:, :, b]
         U21, U22 = U[:, b][:, :, a], U[:, b][:, :, b]
         denominator = U11 + U12 @ S

@@ -17,27 +17,21 @@ from .chain import (
     Array,
     Chain,
     Integers,
+    Steps,
     Sweep,
     block_starts,
     end_frame,
     largest_wave_number,
+    make_steps,
     multiply_groups,
     segment_transfers,
     split_long,
     state_units,
     sweep,
+    symplectic_form,
 )
 
 _CANDIDATE_NODES = 12  # matching nodes tried for a cluster of modes
-
-
-def symplectic_form(size: int) -> Array:
-    """Return J with ``U^T J U = J`` for every transfer matrix; ``J^-1 = -J``."""
-    if size == 2:
-        return np.array([[0.0, 1.0], [-1.0, 0.0]])
-    J = np.zeros((4, 4))
-    J[0, 3], J[3, 0], J[1, 2], J[2, 1] = -1.0, 1.0, 1.0, -1.0
-    return J
 
 
 class Matching(NamedTuple):
@@ -46,20 +40,19 @@ class Matching(NamedTuple):
     left: Sweep
     right: Sweep
     gap: Array
-    """Smallest singular value of the symplectic product of the frames, (blocks + 1, lanes)."""
+    """Smallest singular value of the symplectic product of the frames, (steps + 1, lanes)."""
     state: Array
-    """The state closest to both frames, of norm one, (blocks + 1, lanes, s)."""
+    """The state closest to both frames, of norm one, (steps + 1, lanes, s)."""
 
 
-def match(chain: Chain, U: Array) -> Matching:
-    """Sweep from both ends through the blocks `U` and compare the frames."""
-    lanes, size = U.shape[1], U.shape[-1]
-    J = symplectic_form(size)
-    left = sweep(U, end_frame(chain, chain.left, lanes))
-    inverse = -J @ np.swapaxes(U, -1, -2) @ J
-    back = sweep(inverse[::-1], end_frame(chain, chain.right, lanes))
-    right = Sweep(back.F[::-1], back.R[::-1])
-    product = np.swapaxes(left.F, -1, -2) @ J @ right.F
+def match(chain: Chain, steps: Steps) -> Matching:
+    """Sweep from both ends through the steps and compare the frames between them."""
+    lanes, size = steps.U.shape[1], steps.U.shape[-1]
+    left = sweep(steps, end_frame(chain, chain.left, lanes))
+    from_right = sweep(steps.reversed(), end_frame(chain, chain.right, lanes))
+    F, R, back, factor = from_right
+    right = Sweep(F[::-1], R[::-1], back[::-1], factor)
+    product = np.swapaxes(left.F, -1, -2) @ symplectic_form(size) @ right.F
     gap, null = _smallest_singular(product)
     return Matching(left, right, gap, np.einsum("...sd,...d->...s", right.F, null))
 
@@ -78,47 +71,34 @@ def _smallest_singular(C: Array) -> tuple[Array, Array]:
 
 
 def carry_outwards(left: Sweep, right: Sweep, node: Integers, state: Array) -> Array:
-    """Return the states at all block boundaries, given the one at a node of each lane.
+    """Return the states between all steps, given the one at a place of each lane.
 
     Parameters
     ----------
     left, right : Sweep
         From either end.
     node : array of int, shape (lanes,)
+        Place between steps, 0 ... steps.
     state : array, shape (lanes, s)
 
     Returns
     -------
-    array, shape (blocks + 1, lanes, s)
+    array, shape (steps + 1, lanes, s)
     """
-    (F, R), (G, S) = left, right
-    z = np.zeros(F.shape[:-1])
-    last = len(F) - 1
-    for here, frames, change, order in (
-        (node, F, R, range(last, -1, -1)),
-        (node, G, S, range(last + 1)),
-    ):
-        start = np.einsum("lsd,ls->ld", frames[node, np.arange(len(node))], state)
+    z = np.zeros(left.F.shape[:-1])
+    last = len(z) - 1
+    for part, order in ((left, range(last, -1, -1)), (right, range(last + 1))):
+        start = np.einsum("lsd,ls->ld", part.F[node, np.arange(len(node))], state)
         coefficients = np.zeros_like(start)
-        step = 1 if order.step < 0 else -1
         for i in order:
-            inside = 0 <= i + step <= last
-            if inside:
-                coefficients = _solve_upper(change[i + step], coefficients)
-            coefficients = np.where((here == i)[:, None], start, coefficients)
-            reached = (i <= node) if step == 1 else (i >= node)
-            value = np.einsum("lsd,ld->ls", frames[i], coefficients)
+            previous = i - order.step
+            if 0 <= previous <= last:
+                coefficients = np.einsum("lij,lj->li", part.back[previous], coefficients)
+            coefficients = np.where((node == i)[:, None], start, coefficients)
+            reached = i <= node if order.step < 0 else i >= node
+            value = np.einsum("lsd,ld->ls", part.F[i], coefficients)
             z[i] = np.where(reached[:, None], value, z[i])
     return z
-
-
-def _solve_upper(R: Array, b: Array) -> Array:
-    """Solve ``R x = b`` for one or two unknowns, R upper triangular."""
-    x = np.empty_like(b)
-    x[:, -1] = b[:, -1] / R[:, -1, -1]
-    if b.shape[-1] == 2:
-        x[:, 0] = (b[:, 0] - R[:, 0, 1] * x[:, 1]) / R[:, 0, 0]
-    return x
 
 
 def fill_blocks(z: Array, U: Array, starts: Integers) -> Array:
@@ -127,6 +107,7 @@ def fill_blocks(z: Array, U: Array, starts: Integers) -> Array:
     Parameters
     ----------
     z : array, shape (blocks + 1, lanes, s)
+        At the left end of every block, and at the right end of the last.
     U : array, shape (n, lanes, s, s)
         Transfer matrices of the segments.
     starts : array of int, shape (blocks,)
@@ -145,7 +126,7 @@ def fill_blocks(z: Array, U: Array, starts: Integers) -> Array:
 
 
 def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
-    """Return the states of the modes at every node of the chain.
+    """Return the states of the modes at every node, on its right side; at the last on its left.
 
     Parameters
     ----------
@@ -185,21 +166,24 @@ def _kept_nodes(chain: Chain, fine: Chain) -> Integers:
 def _states(fine: Chain, omega2: Array, multiplicity: Integers, largest: float) -> Array:
     U = segment_transfers(fine, omega2)
     starts = block_starts(fine, largest)
-    matching = match(fine, multiply_groups(U, starts))
+    steps = make_steps(fine, omega2, multiply_groups(U, starts), starts)
+    matching = match(fine, steps)
     node = np.argmin(matching.gap, axis=0)
-    z = carry_outwards(
-        matching.left, matching.right, node, matching.state[node, np.arange(len(omega2))]
-    )
+    state = matching.state[node, np.arange(len(omega2))]
+    z = carry_outwards(matching.left, matching.right, node, state)
+    block = np.flatnonzero(np.array(steps.kind) == "block")
+    weight = np.zeros(len(z))
+    weight[block] = np.add.reduceat(fine.mass * fine.length, starts)
     for lane in np.flatnonzero(multiplicity > 1):
         if lane == 0 or omega2[lane - 1] != omega2[lane]:
             members = slice(int(lane), int(lane + multiplicity[lane]))
-            z[:, members] = _cluster(fine, matching, int(lane), int(multiplicity[lane]), starts)
-    states = fill_blocks(z, U, starts)
+            z[:, members] = _cluster(matching, int(lane), int(multiplicity[lane]), weight)
+    states = fill_blocks(z[np.append(block, block[-1] + 1)], U, starts)
     return states * state_units(fine, omega2)
 
 
-def _cluster(fine: Chain, matching: Matching, lane: int, members: int, starts: Integers) -> Array:
-    """Return independent modes of a cluster, matched at several nodes, (blocks + 1, members, s)."""
+def _cluster(matching: Matching, lane: int, members: int, weight: Array) -> Array:
+    """Return independent modes of a cluster, matched at several places, (steps + 1, members, s)."""
     gap = matching.gap[:, lane]
     spread = np.array_split(np.arange(len(gap)), min(_CANDIDATE_NODES, len(gap)))
     nodes = np.array([part[np.argmin(gap[part])] for part in spread])
@@ -212,7 +196,6 @@ def _cluster(fine: Chain, matching: Matching, lane: int, members: int, starts: I
         len(nodes) // (d + 1) :
     ]
     z = carry_outwards(*_repeat_lane(matching, lane, len(nodes)), nodes, states)
-    weight = fine.mass[np.minimum(np.append(starts, len(fine.mass) - 1), len(fine.mass) - 1)]
     return _independent(z, weight, quality, members)
 
 
@@ -226,8 +209,11 @@ def _misfit(matching: Matching, lane: int, nodes: Integers, states: Array) -> Ar
 def _repeat_lane(matching: Matching, lane: int, times: int) -> tuple[Sweep, Sweep]:
     """Return both sweeps of one lane, as many times side by side."""
     here = np.full(times, lane)
-    left, right = matching.left, matching.right
-    return Sweep(left.F[:, here], left.R[:, here]), Sweep(right.F[:, here], right.R[:, here])
+    left, right = (
+        Sweep(part.F[:, here], part.R[:, here], part.back[:, here], part.factor[here])
+        for part in (matching.left, matching.right)
+    )
+    return left, right
 
 
 def _independent(z: Array, weight: Array, quality: Array, members: int) -> Array:
