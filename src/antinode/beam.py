@@ -11,7 +11,7 @@ points with weights 1/2 +- sqrt(3)/3, the larger for the nearer point: fourth or
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Literal
@@ -19,8 +19,10 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from .attachments import Attachment, Joint, PointMass, check_attachments, gather
 from .errors import InputError
 from .riccati.chain import Chain, Family, Integers
+from .riccati.points import Point
 
 Array = npt.NDArray[np.float64]
 End = Literal["free", "clamped", "pinned", "sliding"]
@@ -87,12 +89,18 @@ class Beam:
     radius_of_gyration : array, shape (n, 2), optional
         Of the cross-section [m], for the estimate of shear and rotary inertia only; by default
         sqrt(EI/EA).
+    attachments : tuple of PointMass, Spring and Joint
+        At breakpoints; `with_attachments` makes the breakpoints.
+    offset_weight : bool
+        Whether the part of N that the axial acceleration makes of an offset point mass acts
+        through its own centre, and so bends the beam when it turns.
     name : str
 
     Raises
     ------
     InputError
-        If shapes disagree, breakpoints do not increase, or a property is not positive and finite.
+        If shapes disagree, breakpoints do not increase, a property is not positive and finite, or
+        an attachment is not at a breakpoint.
     """
 
     x: Array
@@ -104,6 +112,8 @@ class Beam:
     interpolation: Interpolation = "step"
     ends: Ends = Ends()
     radius_of_gyration: Array | None = None
+    attachments: tuple[Attachment, ...] = ()
+    offset_weight: bool = True
     name: str = "beam"
 
     def __post_init__(self) -> None:
@@ -180,25 +190,74 @@ class Beam:
 
     @cached_property
     def mass(self) -> float:
-        """Total mass [kg]."""
+        """Total mass [kg], point masses included."""
         return float(self.mass_left[-1])
 
     @cached_property
     def mass_left(self) -> Array:
-        """Mass left of every breakpoint [kg], shape (n + 1,)."""
+        """Mass left of every breakpoint and at it [kg], shape (n + 1,)."""
         whole = _partial_mass(self, np.arange(len(self.x) - 1), np.ones(len(self.x) - 1))
-        return np.concatenate([[0.0], np.cumsum(whole)])
+        points = np.zeros(len(self.x))
+        for item in self.attachments:
+            if isinstance(item, PointMass):
+                points[self._breakpoint(item.x)] += item.mass
+        return np.concatenate([[0.0], np.cumsum(whole)]) + np.cumsum(points)
+
+    def mass_left_of(self, interval: Integers, fraction: Array) -> Array:
+        """Return the mass left of places inside intervals [kg]."""
+        return np.asarray(self.mass_left[interval] + _partial_mass(self, interval, fraction))
+
+    def _breakpoint(self, x: float) -> int:
+        return int(np.argmin(np.abs(self.x - x)))
+
+    @property
+    def axial_joint_compliance(self) -> Array:
+        """Axial compliance of the joints at every breakpoint [m/N], shape (n + 1,)."""
+        compliance = np.zeros(len(self.x))
+        for item in self.attachments:
+            if isinstance(item, Joint):
+                compliance[self._breakpoint(item.x)] += item.axial
+        return compliance
+
+    def with_breakpoints(self, positions: Sequence[float]) -> Beam:
+        """Return the same beam with breakpoints at the given positions [m] as well."""
+        inside = [p for p in positions if np.min(np.abs(self.x - p)) > 1e-12 * self.length]
+        if not inside:
+            return self
+        x = np.union1d(self.x, inside)
+        k = np.clip(np.searchsorted(self.x, (x[1:] + x[:-1]) / 2) - 1, 0, len(self.x) - 2)
+        size = np.diff(self.x)[k]
+        start, end = (x[:-1] - self.x[k]) / size, (x[1:] - self.x[k]) / size
+        linear = replace(self, interpolation="linear")
+        tables: dict[str, Any] = {}
+        for name in _TABLES:
+            values = getattr(self, name)
+            how = linear if name == "axial_force" else self
+            if values is not None:
+                sides = (how.at(values, k, start), how.at(values, k, end))
+                tables[name] = np.stack(sides, axis=1)
+        return replace(self, x=x, **tables)
+
+    def with_attachments(self, *attachments: Attachment) -> Beam:
+        """Return the beam with point masses, springs and joints added, and breakpoints for them."""
+        check_attachments(attachments, self.x)
+        beam = self.with_breakpoints([item.x for item in attachments])
+        return replace(beam, attachments=(*self.attachments, *attachments))
 
     @cached_property
     def moment_of_inertia(self) -> float:
-        """Moment of inertia about the centre of mass, of the line masses [kg m^2]."""
+        """Moment of inertia about the centre of mass [kg m^2], point masses included."""
         points, weights = np.polynomial.legendre.leggauss(8)
         k = np.arange(len(self.x) - 1)[:, None]
         t = (points + 1) / 2
-        dm = self.at(self.mass_per_length, k, t) * np.diff(self.x)[:, None] * weights / 2
-        x = self.x[:-1, None] + np.diff(self.x)[:, None] * t
+        dm = (self.at(self.mass_per_length, k, t) * np.diff(self.x)[:, None] * weights / 2).ravel()
+        x = (self.x[:-1, None] + np.diff(self.x)[:, None] * t).ravel()
+        masses = [item for item in self.attachments if isinstance(item, PointMass)]
+        dm = np.append(dm, [item.mass for item in masses])
+        x = np.append(x, [item.x + item.offset for item in masses])
         centre = np.sum(dm * x) / np.sum(dm)
-        return float(np.sum(dm * (x - centre) ** 2))
+        own = sum(item.rotary_inertia for item in masses)
+        return float(np.sum(dm * (x - centre) ** 2)) + own
 
     def at(self, values: Array, interval: Integers, fraction: Array) -> Array:
         """Interpolate a property inside intervals, at fractions 0 ... 1 of their lengths."""
@@ -213,8 +272,7 @@ class Beam:
         N = table[..., 0] + (table[..., 1] - table[..., 0]) * fraction
         if self.axial_acceleration == 0.0:
             return np.asarray(N)
-        left = self.mass_left[interval] + _partial_mass(self, interval, fraction)
-        return np.asarray(N + self.axial_acceleration * left)
+        return np.asarray(N + self.axial_acceleration * self.mass_left_of(interval, fraction))
 
     @cached_property
     def is_unloaded(self) -> bool:
@@ -235,7 +293,16 @@ class Beam:
         }
         e = self.ends
         ends = Ends(e.right, e.left, e.right_axial, e.left_axial)
-        return replace(self, x=self.x[-1] + self.x[0] - self.x[::-1], ends=ends, **flip)
+        total = self.x[-1] + self.x[0]
+        items: list[Attachment] = []
+        for item in self.attachments:
+            turned = replace(item, x=total - item.x)
+            if isinstance(turned, PointMass):
+                turned = replace(turned, offset=-turned.offset)
+            items.append(turned)
+        return replace(
+            self, x=total - self.x[::-1], ends=ends, attachments=tuple(items[::-1]), **flip
+        )
 
     def varies(self, family: Family) -> npt.NDArray[np.bool_]:
         """Tell for each interval whether anything that the family sees varies inside it."""
@@ -275,8 +342,10 @@ class Beam:
             return np.asarray(nearer * first + (1 - nearer) * last)
 
         stiffness = self.bending_stiffness if family == "bending" else _given(self.axial_stiffness)
-        left, right = self.ends.of(family)
+        first = np.concatenate([[0], np.cumsum(np.bincount(interval[step]))])
+        left, right, points = self._points(family, first)
         return Chain(
+            points=points,
             length=(length / halves)[step],
             mass=average(lambda k, t: self.at(self.mass_per_length, k, t)),
             stiffness=1.0 / average(lambda k, t: 1.0 / self.at(stiffness, k, t)),
@@ -285,6 +354,62 @@ class Beam:
             right=right,
             family=family,
         )
+
+    def _points(self, family: Family, first: Integers) -> tuple[str, str, tuple[Point, ...]]:
+        """Return the ends with their supports, and the points at nodes of a chain.
+
+        `first` is the node of every breakpoint.
+        """
+        acceleration = self.axial_acceleration if self.offset_weight else 0.0
+        points = gather(self.attachments, self.x, family, acceleration)
+        ends = list(self.ends.of(family))
+        for side, k in ((0, 0), (1, len(self.x) - 1)):
+            if k in points:
+                ends[side] = _held(ends[side], points[k].holds, family)
+                points[k] = replace(points[k], holds=())
+        kept = tuple(replace(p, node=int(first[k])) for k, p in points.items())
+        return ends[0], ends[1], kept
+
+    def freedoms(self, family: Family) -> Array:
+        """Return the rigid motions that nothing holds.
+
+        Returns
+        -------
+        array, shape (freedoms, 2)
+            Rows [a, b] of motions ``a + b (x - x[0])``; longitudinally only [1, 0] can occur.
+        """
+        rows = [np.zeros(2)]
+        left, right, points = self._points(family, np.arange(len(self.x)))
+        held = [(0.0, _HOLDS[left]), (self.length, _HOLDS[right])]
+        for point in points:
+            springs = (point.spring, point.rotational_spring)
+            all_held = {*point.holds, *(i for i, stiffness in enumerate(springs) if stiffness)}
+            held.append((float(self.x[point.node] - self.x[0]), tuple(all_held)))
+        if family == "longitudinal":
+            return np.zeros((0, 2)) if any(rows for _, rows in held) else np.array([[1.0, 0.0]])
+        for x, components in held:
+            rows += [np.array([1.0, x / self.length]) if c == 0 else _SLOPE for c in components]
+        _, size, basis = np.linalg.svd(np.array(rows))
+        rank = int(np.sum(size > 1e-9))
+        return np.asarray(basis[rank:] / np.array([1.0, self.length]))
+
+
+_SLOPE = np.array([0.0, 1.0])
+_HOLDS: dict[str, tuple[int, ...]] = {
+    "free": (),
+    "pinned": (0,),
+    "sliding": (1,),
+    "clamped": (0, 1),
+    "fixed": (0,),
+}
+
+
+def _held(end: str, holds: tuple[int, ...], family: Family) -> str:
+    """Return an end that a support holds as well."""
+    if family == "longitudinal":
+        return "fixed" if holds else end
+    both = tuple(sorted({*_HOLDS[end], *holds}))
+    return {(): "free", (0,): "pinned", (1,): "sliding", (0, 1): "clamped"}[both]
 
 
 def _copies(times: Integers) -> tuple[Integers, Integers]:
@@ -353,6 +478,13 @@ def _check(beam: Beam) -> None:
         values = getattr(beam, name)
         if values is not None:
             _check_table(name, values, n)
+    check_attachments(beam.attachments, beam.x)
+    for item in beam.attachments:
+        if np.min(np.abs(beam.x - item.x)) > 1e-9 * beam.length:
+            raise InputError(
+                f"no breakpoint at x = {item.x:g} m, where something is attached; "
+                "use Beam.with_attachments"
+            )
 
 
 def _check_table(name: str, values: Array, n: int) -> None:

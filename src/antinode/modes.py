@@ -22,7 +22,7 @@ from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .riccati.chain import Chain, Family, omega2_scale
 from .riccati.literal import find_eigenvalues_tmm
 from .riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
-from .riccati.shapes import Squares, integrate_squares, mode_states
+from .riccati.shapes import Energies, mode_energies, mode_states, propagate
 
 Array = npt.NDArray[np.float64]
 FAMILIES: tuple[Family, ...] = ("bending", "longitudinal")
@@ -124,16 +124,14 @@ class _Solved:
 
 def rigid_modes(beam: Beam, family: Family) -> tuple[str, ...]:
     """Return the names of the rigid modes that the supports leave, e.g. translation, rotation."""
-    left, right = beam.ends.of(family)
-    if family == "longitudinal":
-        return ("translation",) if left == right == "free" else ()
-    held = {"free": 0, "sliding": 1, "pinned": 2, "clamped": 3}
-    worst = sorted((left, right), key=held.__getitem__)
-    if worst == ["free", "free"]:
+    freedoms = beam.freedoms(family)
+    if len(freedoms) == 2:
         return "translation", "rotation"
-    if worst in (["free", "sliding"], ["sliding", "sliding"]):
-        return ("translation",)
-    return ("rotation",) if worst == ["free", "pinned"] else ()
+    return tuple("translation" if _is_translation(row, beam) else "rotation" for row in freedoms)
+
+
+def _is_translation(freedom: Array, beam: Beam) -> bool:
+    return bool(abs(freedom[1]) * beam.length < 1e-9 * abs(freedom[0]))
 
 
 def exact_zeros(beam: Beam, family: Family) -> int:
@@ -226,11 +224,13 @@ def _output_grid(beam: Beam, modes: int) -> Array:
     """Return breakpoints and points between, dense enough for smooth shapes [m]."""
     spacing = beam.length / max(200, 20 * (modes + 2))
     pieces = np.ceil(np.diff(beam.x) / spacing).astype(int)
-    parts = [
+    parts: list[Array] = [
         np.linspace(a, b, n, endpoint=False)
         for a, b, n in zip(beam.x[:-1], beam.x[1:], pieces, strict=True)
     ]
-    return np.append(np.concatenate(parts), beam.x[-1])
+    inner = [item.x for item in beam.attachments if beam.x[0] < item.x < beam.x[-1]]
+    doubled = sorted({int(np.argmin(np.abs(beam.x - x))) for x in inner})
+    return np.sort(np.concatenate([*parts, beam.x[-1:], beam.x[doubled]]))
 
 
 def _modes_of(
@@ -244,18 +244,18 @@ def _modes_of(
         for k, (value, (_, number)) in enumerate(zip(solved.eigenvalues, names, strict=True))
         if number <= modes or value.omega2 < 0
     ]
-    chain = solved.chain.cut_at(grid - grid[0])
+    chain = solved.chain.cut_at(np.unique(grid - grid[0]))
     omega2 = np.array([solved.eigenvalues[k].omega2 for k in keep])
     states = _shapes(beam, chain, solved.eigenvalues, keep, names)
-    squares = integrate_squares(chain, states, omega2)
-    scale = _normalising_factors(chain, states, squares, normalisation)
+    energies = mode_energies(chain, states, omega2)
+    scale = _normalising_factors(states, energies.mass, normalisation)
     states = states * scale[:, None]
-    at_grid = np.searchsorted(chain.nodes, grid - grid[0] - 1e-9 * beam.length)
+    at_grid = _on_grid(chain, states, omega2, grid - grid[0])
     rows = []
     for column, k in enumerate(keep):
-        one = Squares(*(part[:, column] * scale[column] ** 2 for part in squares))
+        one = energies.of_mode(column, float(scale[column]))
         name, number = names[k]
-        rows.append(_mode(beam, chain, solved, k, name, number, states[at_grid, column], one))
+        rows.append(_mode(beam, chain, solved, k, name, number, at_grid[:, column], one))
     return rows, Solution(chain, omega2, states)
 
 
@@ -308,26 +308,40 @@ def _rigid_state(beam: Beam, chain: Chain, name: str) -> Array:
     if name == "rigid translation":
         state[:, 0] = 1.0
         return state
-    middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2
-    dm = chain.mass * chain.length
-    pivot = float(np.sum(dm * middle) / np.sum(dm))
-    if beam.ends.left == "pinned" or beam.ends.right == "pinned":
-        pivot = 0.0 if beam.ends.left == "pinned" else float(chain.nodes[-1])
+    freedoms = beam.freedoms("bending")
+    held = len(freedoms) == 1
+    pivot = -freedoms[0, 0] / freedoms[0, 1] if held else _centre_of_mass(chain)
     state[:, 0], state[:, 1] = chain.nodes - pivot, 1.0
     return state
 
 
-def _normalising_factors(
-    chain: Chain, states: Array, squares: Squares, normalisation: Normalisation
-) -> Array:
+def _centre_of_mass(chain: Chain) -> float:
+    """Return the centre of all mass of a chain, from its left end [m]."""
+    nodes = chain.nodes
+    middle, dm = (nodes[1:] + nodes[:-1]) / 2, chain.mass * chain.length
+    masses = np.array([p.mass for p in chain.points])
+    places = np.array([nodes[p.node] + p.offset for p in chain.points])
+    return float((dm @ middle + masses @ places) / (np.sum(dm) + np.sum(masses)))
+
+
+def _on_grid(chain: Chain, states: Array, omega2: Array, grid: Array) -> Array:
+    """Return the states at grid positions; a doubled position has its left side first."""
+    nodes = chain.nodes
+    node = np.clip(np.searchsorted(nodes, grid - 1e-9 * nodes[-1]), 0, len(nodes) - 1)
+    values = states[node].copy()
+    left = np.flatnonzero(np.diff(grid, append=np.inf) == 0.0)
+    if len(left):
+        before = node[left] - 1
+        values[left] = propagate(chain, states[before], omega2, chain.length[before], before)
+    return np.asarray(values)
+
+
+def _normalising_factors(states: Array, mass: Array, normalisation: Normalisation) -> Array:
     """Return the factor for each mode: size as asked, first extremum from the nose positive."""
     displacement = states[..., 0]
     sign = np.array([_first_extremum_sign(column) for column in displacement.T])
-    if normalisation == "mass":
-        size = np.sqrt(chain.mass @ squares.displacement)
-    else:
-        size = np.max(np.abs(displacement), axis=0)
-    return sign / size
+    largest = np.max(np.abs(displacement), axis=0)
+    return np.asarray(sign / (np.sqrt(mass) if normalisation == "mass" else largest))
 
 
 def _first_extremum_sign(y: Array) -> float:
@@ -347,17 +361,14 @@ def _mode(
     name: str,
     number: int,
     shape: Array,
-    squares: Squares,
+    energy: Energies,
 ) -> Mode:
     value, family = solved.eigenvalues[k], chain.family
-    mass = float(chain.mass @ squares.displacement)
-    strain = float(np.sum(squares.moment / chain.stiffness))
-    work = float(chain.axial_force @ squares.slope) if family == "bending" else 0.0
-    size = strain + float(np.abs(chain.axial_force) @ squares.slope)
+    mass, stiffness, size = (float(v[0]) for v in (energy.mass, energy.stiffness, energy.size))
     half = max(value.omega2 - value.bracket[0], value.bracket[1] - value.omega2)
     exact = value.omega2 == 0.0 and number == 0
     error = 0.0 if exact else half + _ROUNDING * size / mass + float(solved.discretisation[k])
-    quotient = (strain - work) / mass
+    quotient = stiffness / mass
     reference = max(abs(value.omega2), 1e-9 * omega2_scale(chain))
     kind: Kind = "divergent" if value.omega2 < 0 else "elastic" if number else "rigid"
     return Mode(
@@ -371,14 +382,12 @@ def _mode(
         error_omega2=error,
         modal_mass=mass,
         residual=0.0 if exact else abs(quotient - value.omega2) / reference,
-        model_error=_model_error(beam, chain, value.omega2, squares, mass) if number else None,
+        model_error=_model_error(beam, chain, value.omega2, energy) if number else None,
         states=shape,
     )
 
 
-def _model_error(
-    beam: Beam, chain: Chain, omega2: float, squares: Squares, mass: float
-) -> float | None:
+def _model_error(beam: Beam, chain: Chain, omega2: float, energy: Energies) -> float | None:
     """Return the first-order effect of rotary inertia and shear on a frequency, relative.
 
     ``-1/2 [int m r^2 theta^2 + int M'^2/(kGA) / omega^2] / int m Y^2``, with the shear stiffness
@@ -395,9 +404,9 @@ def _model_error(
     else:
         r2 = chain.stiffness / EA
     kGA = EA / (4 * 1.3)
-    rotary = float((chain.mass * r2) @ squares.slope)
-    shear = float(np.sum(squares.shear / kGA)) / omega2
-    return -(rotary + shear) / mass / 2
+    rotary = float((chain.mass * r2) @ energy.squares.slope[:, 0])
+    shear = float(np.sum(energy.squares.shear[:, 0] / kGA)) / omega2
+    return -(rotary + shear) / float(energy.mass[0]) / 2
 
 
 def _compare_unloaded(beam: Beam, found: list[Mode], modes: int, tolerance: float) -> list[Mode]:

@@ -30,6 +30,7 @@ from .chain import (
     sweep,
     symplectic_form,
 )
+from .points import Point
 
 _CANDIDATE_NODES = 12  # matching nodes tried for a cluster of modes
 
@@ -249,6 +250,55 @@ class Squares(NamedTuple):
     """of M^2 [N^2 m^3] (or Q_x^2 [N^2 m])"""
     shear: Array
     """of M'^2 [N^2 m]; zero longitudinally"""
+
+
+class Energies(NamedTuple):
+    """Quadratic forms of the modes, points included; shape (modes,) but for `squares`."""
+
+    squares: Squares
+    mass: Array
+    """Integral of m Y^2 and the points' share: the modal mass."""
+    stiffness: Array
+    """Integral of EI Y''^2 - N Y'^2 (or EA X'^2) and the points' share: omega^2 times the mass."""
+    size: Array
+    """The same with every term taken positive: how much cancels in the stiffness."""
+
+    def of_mode(self, column: int, scale: float) -> Energies:
+        """Return those of one mode, scaled by a factor on its shape."""
+        one = slice(column, column + 1)
+        squares = Squares(*(part[:, one] * scale**2 for part in self.squares))
+        return Energies(squares, *(part[one] * scale**2 for part in self[1:]))
+
+
+def mode_energies(chain: Chain, states: Array, omega2: Array) -> Energies:
+    """Return modal mass and stiffness of modes along a chain with all its points.
+
+    Parameters
+    ----------
+    states : array, shape (n + 1, k, s)
+    omega2 : array, shape (k,)
+    """
+    squares = integrate_squares(chain, states, omega2)
+    mass = chain.mass @ squares.displacement
+    strain = (1 / chain.stiffness) @ squares.moment
+    work = chain.axial_force @ squares.slope
+    size = strain + np.abs(chain.axial_force) @ squares.slope
+    for point in chain.points:
+        inertia, elastic = _point_energies(point, states[point.node], point.node == len(states) - 1)
+        mass, strain, size = mass + inertia, strain + elastic, size + np.abs(elastic)
+    return Energies(squares, mass, strain - work, size)
+
+
+def _point_energies(point: Point, state: Array, last: bool) -> tuple[Array, Array]:
+    """Return a point's shares of modal mass and stiffness, from the states on its right side."""
+    if state.shape[-1] == 2:
+        X = state[:, 0] if last else state[:, 0] + point.compliance * state[:, 1]
+        return point.mass * X**2, point.spring * X**2 + point.compliance * state[:, 1] ** 2
+    Y, theta, M, _ = state.T
+    turn = theta if last else theta - point.compliance * M
+    inertia = point.mass * (Y + point.offset * turn) ** 2 + point.inertia * turn**2
+    rotational = point.rotational_spring - point.own_load * point.offset
+    return inertia, point.spring * Y**2 + rotational * turn**2 + point.compliance * M**2
 
 
 def integrate_squares(chain: Chain, states: Array, omega2: Array) -> Squares:
