@@ -10,6 +10,8 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import Field, model_validator
 
+from .attachment_tables import AttachmentTables
+from .axial import apply_loads
 from .beam import AxialEnd, Beam, End, Ends, Interpolation
 from .errors import InputError
 from .files import override, read_stations, read_toml, validate
@@ -99,7 +101,7 @@ def _check_column(name: str, column: Array, rows: int) -> None:
         )
 
 
-class BeamTable(Frozen):
+class BeamTable(AttachmentTables):
     """The table `[beam]`."""
 
     name: str = Field("beam", max_length=200, description="shown in tables and figures")
@@ -119,7 +121,7 @@ class BeamFile(Frozen):
     def beam(self) -> Beam:
         """Return the beam that the file describes."""
         table, stations = self.table, self.table.stations
-        return Beam.from_stations(
+        beam = Beam.from_stations(
             stations.x,
             stations.mass_per_length,
             stations.bending_stiffness,
@@ -129,7 +131,8 @@ class BeamFile(Frozen):
             ends=Ends(**table.ends.model_dump()),
             radius_of_gyration=stations.radius_of_gyration,
             name=table.name,
-        )
+        ).with_attachments(*table.attachments())
+        return beam if table.loads is None else apply_loads(beam, table.loads.loads())
 
 
 def load_beam(path: str | Path, assignments: Iterable[str] = ()) -> BeamFile:
