@@ -1,0 +1,116 @@
+"""Buckling: the factor on the axial force at which the first supported mode starts to diverge.
+
+With end forces of fixed direction a beam loses stability where an eigenvalue omega^2 passes through
+zero, so the same counts that certify frequencies find and bracket the critical load. Rigid motions
+are no buckling: a free beam's rotation diverges under any net compression and is left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .beam import Beam
+from .errors import ComputationError
+from .modes import rigid_modes
+from .riccati.chain import Chain, count_below, omega2_scale
+
+_GROWTH = 1.15
+_LARGEST = 1e9  # factor on the force of the shortest clamped interval, beyond which none buckles
+
+
+@dataclass(frozen=True)
+class Buckling:
+    """The critical load of a beam.
+
+    Attributes
+    ----------
+    load_factor : float
+        Factor on the whole axial force at which the first supported mode diverges.
+    bracket : tuple of float
+        Load factors with no divergent supported mode, and with one, on the segment chain.
+    error : float
+        Bound on the distance to the load factor of the beam as given.
+    """
+
+    load_factor: float
+    bracket: tuple[float, float]
+    error: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as plain numbers for JSON."""
+        return {
+            "load_factor": self.load_factor,
+            "bracket": list(self.bracket),
+            "error": self.error,
+        }
+
+
+def buckling(beam: Beam, tolerance: float = 1e-6) -> Buckling | None:
+    """Find the load factor at which the first supported bending mode diverges.
+
+    Parameters
+    ----------
+    beam : Beam
+        Under the axial force that is to be multiplied.
+    tolerance : float
+        Largest relative error by what varies inside segments.
+
+    Returns
+    -------
+    Buckling or None
+        None where no factor buckles the beam: it is nowhere in compression.
+
+    Raises
+    ------
+    ComputationError
+        If the tolerance is out of reach.
+    """
+    allowed = int("rotation" in rigid_modes(beam, "bending"))
+    refinement = 1
+    found = _critical(beam.chain("bending", refinement), allowed)
+    if found is None or not np.any(beam.varies("bending")):
+        return None if found is None else _buckling(found, 0.0)
+    while refinement < 256:
+        refinement *= 2
+        coarse, found = found, _critical(beam.chain("bending", refinement), allowed)
+        if found is None:
+            break
+        error = abs(sum(found) - sum(coarse)) / 2 / 8
+        if error <= tolerance * found[0]:
+            return _buckling(found, error)
+    raise ComputationError("the critical load did not converge; give the stations more smoothly")
+
+
+def _buckling(bracket: tuple[float, float], error: float) -> Buckling:
+    middle = sum(bracket) / 2
+    return Buckling(middle, bracket, error + (bracket[1] - bracket[0]) / 2)
+
+
+def _critical(chain: Chain, allowed: int) -> tuple[float, float] | None:
+    """Bracket the load factor at which more than `allowed` eigenvalues are negative."""
+    largest = float(np.max(chain.axial_force / chain.stiffness))
+    if largest <= 0:
+        return None
+    low = 1e-3 / (largest * chain.nodes[-1] ** 2)
+    most = _LARGEST / (largest * float(np.min(chain.length)) ** 2)
+    while _diverge(chain, low) > allowed:
+        low /= 1e3
+    high = low * _GROWTH
+    while _diverge(chain, high) <= allowed:
+        low, high = high, high * _GROWTH
+        if high > most:
+            return None
+    while high - low > 1e-11 * high:
+        middle = (low + high) / 2
+        low, high = (low, middle) if _diverge(chain, middle) > allowed else (middle, high)
+    return low, high
+
+
+def _diverge(chain: Chain, factor: float) -> int:
+    """Return how many eigenvalues are negative under `factor` times the axial force."""
+    points = tuple(replace(p, own_load=factor * p.own_load) for p in chain.points)
+    loaded = replace(chain, axial_force=factor * chain.axial_force, points=points)
+    return int(count_below(loaded, [-1e-13 * omega2_scale(chain)])[0])
