@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Self
 
@@ -16,7 +17,7 @@ from .beam import AxialEnd, Beam, End, Ends, Interpolation
 from .errors import InputError
 from .files import override, read_stations, read_toml, validate
 from .units import Frozen, Number
-from .vehicle import Column
+from .vehicle import Column, MassTable, check_on_body
 
 Array = npt.NDArray[np.float64]
 COLUMNS = (
@@ -110,6 +111,15 @@ class BeamTable(AttachmentTables):
     )
     stations: BeamStations
     ends: BeamEnds = BeamEnds()
+    masses: tuple[MassTable, ...] = Field(
+        (), description="parts whose mass adds to the stations' (tank, engine, lining)"
+    )
+
+    @model_validator(mode="after")
+    def _check_masses(self) -> Self:
+        x = self.stations.x
+        check_on_body(self.masses, float(x[0]), float(x[-1]), self.interpolation)
+        return self
 
 
 class BeamFile(Frozen):
@@ -132,7 +142,20 @@ class BeamFile(Frozen):
             radius_of_gyration=stations.radius_of_gyration,
             name=table.name,
         ).with_attachments(*table.attachments())
+        for part in table.masses:
+            beam = _with_part(beam, part)
         return beam if table.loads is None else apply_loads(beam, table.loads.loads())
+
+
+def _with_part(beam: Beam, part: MassTable) -> Beam:
+    """Return the beam with the mass of a part added."""
+    beam = beam.with_breakpoints(part.x.tolist())
+    linear = part.interpolation == "linear"
+    return replace(
+        beam,
+        mass_per_length=beam.mass_per_length + part.distribution().between(beam.x),
+        interpolation="linear" if linear else beam.interpolation,
+    )
 
 
 def load_beam(path: str | Path, assignments: Iterable[str] = ()) -> BeamFile:
@@ -160,7 +183,12 @@ def load_beam(path: str | Path, assignments: Iterable[str] = ()) -> BeamFile:
     override(tables, assignments)
     if "vehicle" in tables and "beam" not in tables:
         raise InputError(f"{path}: this is a vehicle's case; use 'antinode modes {path}'")
-    return validate(BeamFile, _with_stations(tables, path), str(path))
+    file = validate(BeamFile, _with_stations(tables, path), str(path))
+    try:
+        file.beam()
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+    return file
 
 
 def _with_stations(tables: dict[str, Any], path: Path) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from .files import override, read_stations, read_toml, validate
 from .loads import Loads, compute_loads
 from .model import Model
 from .units import Frozen
-from .vehicle import Section, Vehicle
+from .vehicle import Interpolation, Section, Vehicle
 
 Array = npt.NDArray[np.float64]
 COLUMNS = (
@@ -72,10 +72,16 @@ def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float) -> Beam:
         axial_stiffness=section.axial_stiffness,
         axial_force=steps,
         axial_acceleration=loads.axial_inertia,
-        interpolation=vehicle.interpolation,
+        interpolation=_interpolation(vehicle),
         radius_of_gyration=radius_of_gyration(section),
         name=vehicle.name,
     )
+
+
+def _interpolation(vehicle: Vehicle) -> Interpolation:
+    """Return how the columns run, once linear parts may have been added to stepped stations."""
+    linear = any(part.interpolation == "linear" for part in vehicle.masses)
+    return "linear" if linear else vehicle.interpolation
 
 
 def radius_of_gyration(section: Section) -> Array | None:

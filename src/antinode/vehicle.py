@@ -244,6 +244,34 @@ class MassDistribution:
     ends: Array
     interpolation: Interpolation
 
+    def __add__(self, other: MassDistribution) -> MassDistribution:
+        """Return the sum of two distributions, each zero outside its own range.
+
+        Raises
+        ------
+        ValueError
+            If one is logarithmic: the sum would not be.
+        """
+        kinds = {self.interpolation, other.interpolation}
+        if "log" in kinds:
+            raise ValueError("masses interpolated by 'log' cannot be added: use step or linear")
+        x = np.union1d(self.x, other.x)
+        how: Interpolation = "step" if kinds == {"step"} else "linear"
+        return MassDistribution(x, self.between(x) + other.between(x), how)
+
+    def between(self, x: Array) -> Array:
+        """Return the mass per length at both ends of the intervals between `x`, (n, 2) [kg/m]."""
+        middle = (x[:-1] + x[1:]) / 2
+        k = np.clip(np.searchsorted(self.x, middle) - 1, 0, len(self.ends) - 1)
+        size = self.x[k + 1] - self.x[k]
+        a, b = self.ends[k].T
+        sides = []
+        for points in (x[:-1], x[1:]):
+            t = (points - self.x[k]) / size
+            sides.append(a * (b / a) ** t if self.interpolation == "log" else a + (b - a) * t)
+        inside = (middle > self.x[0]) & (middle < self.x[-1])
+        return np.where(inside[:, None], np.stack(sides, axis=1), 0.0)
+
     def moments(self, x: ArrayLike) -> Array:
         """Return the integrals of m, m x and m x^2 from the nose to `x`.
 
@@ -285,6 +313,51 @@ class MassDistribution:
         return [s * np.sum(_WEIGHTS * m * t**p, axis=-1) for p in range(3)]
 
 
+class MassTable(Frozen):
+    """A part that adds mass along some of the length, such as a tank: `[[...masses]]`."""
+
+    name: str = Field(default="part", max_length=200, description="what it is")
+    interpolation: Literal["step", "linear"] = Field(
+        default="step", description="how mass_per_length runs between its rows"
+    )
+    x: Annotated[Array, Column("m")] = Field(description="position [m], increasing")
+    mass_per_length: Annotated[Array, Column("kg/m")] = Field(
+        description="added mass per length [kg/m], at least 0"
+    )
+    burns: bool = Field(
+        default=False, description="whether it vanishes with burn_fraction (a vehicle's fuel)"
+    )
+
+    @model_validator(mode="after")
+    def _check_table(self) -> Self:
+        _increasing(self.x)
+        m = self.mass_per_length
+        if len(m) != len(self.x):
+            raise ValueError(f"mass_per_length has {len(m)} rows, but x has {len(self.x)}")
+        _finite("mass_per_length", m)
+        for i in np.flatnonzero(m < 0)[:1]:
+            raise ValueError(f"mass_per_length, row {i + 1}: received {m[i]:g}; must be at least 0")
+        return self
+
+    def distribution(self, burn_fraction: float = 0.0) -> MassDistribution:
+        """Return the mass along the axis."""
+        m = self.mass_per_length * ((1 - burn_fraction) if self.burns else 1.0)
+        after = m[:-1] if self.interpolation == "step" else m[1:]
+        return MassDistribution(self.x, np.stack([m[:-1], after], axis=1), self.interpolation)
+
+
+def check_on_body(masses: tuple[MassTable, ...], start: float, end: float, how: str) -> None:
+    """Raise ValueError unless every part lies on the body and can be added to its table."""
+    for part in masses:
+        if part.x[0] < start or part.x[-1] > end:
+            raise ValueError(
+                f"the part '{part.name}' runs from {part.x[0]:g} to {part.x[-1]:g} m, but the body "
+                f"from {start:g} to {end:g} m: correct its x"
+            )
+        if how == "log":
+            raise ValueError("parts cannot be added to a table with interpolation = 'log'")
+
+
 @dataclass(frozen=True, eq=False)
 class Section:
     """Properties at both ends of each interval between `x`, arrays (n, 2); equal for "step"."""
@@ -308,6 +381,9 @@ class Vehicle(Frozen):
     stations: Stations
     cavitator: Cavitator
     fins: tuple[FinSet, ...] = Field(default=(), description="sets of fins")
+    masses: tuple[MassTable, ...] = Field(
+        default=(), description="parts whose mass adds to the stations' (tank, engine, payload)"
+    )
 
     @model_validator(mode="after")
     def _check_nose(self) -> Self:
@@ -317,6 +393,7 @@ class Vehicle(Frozen):
         if radius[0] == 0 and self.interpolation == "step":
             wrong = "radius, row 1: received 0; must be greater than 0 m with 'step'"
             raise ValueError(f"{wrong}: correct it or use interpolation = 'linear'")
+        check_on_body(self.masses, 0.0, self.length, self.interpolation)
         return self
 
     @property
@@ -348,10 +425,13 @@ class Vehicle(Frozen):
         return states[k] + (place - k) * (following - states[k])
 
     def mass_distribution(self, burn_fraction: float = 0.0) -> MassDistribution:
-        """Return the mass along the axis at a burn fraction, with its integrals."""
+        """Return the mass along the axis at a burn fraction, all parts added up."""
         x = self.stations.x
         ends = self._ends(self.mass_per_length(burn_fraction), x, self.interpolation)
-        return MassDistribution(x, ends, self.interpolation)
+        total = MassDistribution(x, ends, self.interpolation)
+        for part in self.masses:
+            total = total + part.distribution(burn_fraction)
+        return total
 
     def section(self, breakpoints: ArrayLike, burn_fraction: float = 0.0) -> Section:
         """Return the properties at both ends of the intervals between `breakpoints`.
@@ -377,7 +457,7 @@ class Vehicle(Frozen):
         gyration, wall = table.radius_of_gyration, table.wall
         return Section(
             x=points,
-            mass_per_length=ends(self.mass_per_length(burn_fraction)),
+            mass_per_length=self.mass_distribution(burn_fraction).between(points),
             bending_stiffness=ends(table.bending_stiffness),
             axial_stiffness=ends(table.axial_stiffness),
             radius=ends(table.radius, radial),

@@ -4,6 +4,8 @@ Shares no code and no idea with the solver: energy matrices and `M v = mu (K + s
 keeps the digits of the low modes that `K v = lambda M v` loses on many short elements.
 """
 
+from itertools import pairwise
+
 import numpy as np
 from scipy.linalg import eigh
 
@@ -16,8 +18,7 @@ def beam_matrices(beam, elements=40):
     Joints get a second slope at their node; supports drop freedoms.
     """
     nodes = np.concatenate(
-        [np.linspace(a, b, elements, endpoint=False) for a, b in zip(beam.x[:-1], beam.x[1:])]
-        + [beam.x[-1:]]
+        [np.linspace(a, b, elements, endpoint=False) for a, b in pairwise(beam.x)] + [beam.x[-1:]]
     )
     joints = {}
     for item in beam.attachments:
@@ -30,9 +31,7 @@ def beam_matrices(beam, elements=40):
     for e in range(len(nodes) - 1):
         k = e // elements
         index = [2 * e, right_slope.get(e, 2 * e + 1), 2 * e + 2, 2 * e + 3]
-        values = (
-            t[k, 0] for t in (beam.mass_per_length, beam.bending_stiffness, beam.axial_force)
-        )
+        values = (t[k, 0] for t in (beam.mass_per_length, beam.bending_stiffness, beam.axial_force))
         element_K, element_M = element(nodes[e + 1] - nodes[e], *values)
         K[np.ix_(index, index)] += element_K
         M[np.ix_(index, index)] += element_M
@@ -42,7 +41,7 @@ def beam_matrices(beam, elements=40):
 
 def element(h, m, EI, N):
     K, M = np.zeros((4, 4)), np.zeros((4, 4))
-    for p, w in zip(_POINTS, _WEIGHTS):
+    for p, w in zip(_POINTS, _WEIGHTS, strict=True):
         s = (p + 1) / 2
         f = np.array(
             [1 - 3 * s**2 + 2 * s**3, h * (s - 2 * s**2 + s**3), 3 * s**2 - 2 * s**3,
@@ -62,7 +61,7 @@ def _attach(beam, nodes, joints, right_slope, K, M):
     held = set()
     holds = {"free": (), "pinned": (0,), "sliding": (1,), "clamped": (0, 1)}
     last = 2 * (len(nodes) - 1)
-    held |= {i for i in holds[beam.ends.left]} | {last + i for i in holds[beam.ends.right]}
+    held |= set(holds[beam.ends.left]) | {last + i for i in holds[beam.ends.right]}
     for at, compliance in joints.items():
         a, b = 2 * at + 1, right_slope[at]
         K[np.ix_([a, b], [a, b])] += np.array([[1, -1], [-1, 1]]) / compliance

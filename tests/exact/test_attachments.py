@@ -5,6 +5,7 @@ import math
 import hermite
 import numpy as np
 import pytest
+
 from antinode import Beam, Ends, solve_modes
 from antinode.attachments import Joint, PointMass, Spring
 
