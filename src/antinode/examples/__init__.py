@@ -10,6 +10,10 @@ from antinode.errors import InputError
 EXAMPLES = {
     "starter": "antinode modes {folder}case.toml",
     "beam": "antinode beam {folder}beam.toml",
+    "tower": "antinode beam {folder}beam.toml",
+    "rocket": "antinode beam {folder}beam.toml",
+    "drill_string": "antinode beam {folder}beam.toml",
+    "shaft": "antinode beam {folder}beam.toml",
 }
 """Name of each example and the command to run next."""
 
