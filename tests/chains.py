@@ -5,7 +5,8 @@ in EI, a third 100 to 300 segments, a third an axial force within 5 % of bucklin
 drawn: ends, lengths, stiffness, mass, tension or compression (to many times buckling), mirrored
 and periodic chains with their clusters, and where omega^2 lies among the eigenvalues. That is the
 middle (log) of a gap between two eigenvalues, or below the first one, or between zero and the next
-one, or, away from eigenvalues, where one segment's own formulas are singular.
+one, or, away from eigenvalues, where a segment's own formulas or the stiffness of a part of the
+chain are singular.
 """
 
 import math
@@ -83,6 +84,23 @@ def draw_case(seed, index):
     return Case(index, chain, omega2, target, room, spectrum.negative, factor)
 
 
+def draw_resonance(seed, index):
+    """Three cases: a chain of up to 20 segments at a `_singular` omega^2 and at its two neighbours.
+
+    A recursion divides by nearly nothing there, though no eigenvalue is near: the neighbours are
+    those in double precision.
+    """
+    rng = np.random.default_rng([seed, index, 1])
+    steep, found = index % 2 == 0, None
+    while found is None:
+        chain = _draw_chain(rng, max(1 + steep, int(_log_uniform(rng, 1, 21))), steep, False)
+        spectrum = _Spectrum(chain)
+        found = _singular(rng, spectrum)
+    omega2, room = found
+    points = (math.nextafter(omega2, -math.inf), omega2, math.nextafter(omega2, math.inf))
+    return [Case(index, chain, x, "resonance", room, spectrum.negative) for x in points]
+
+
 # --- the chain -------------------------------------------------------------------------------
 
 
@@ -100,8 +118,8 @@ def _draw_chain(rng, n, steep, near):
     h = np.ones(n) if rng.random() < 0.3 else _log_uniform(rng, 1, 30, n)
     h *= _log_uniform(rng, 0.3, 30) / h.sum()
     EI = _log_uniform(rng, 1e3, 1e7) * (_steep(rng, n) if steep else _mild(rng, n))
-    two_masses = rng.random() < 0.3
-    m = _log_uniform(rng, 1, 1e3) * (_two_levels(rng, n, 1, 1e6) if two_masses else _mild(rng, n))
+    two_masses = rng.random() < 0.4
+    m = _log_uniform(rng, 1, 1e3) * (_two_levels(rng, n, 10, 1e6) if two_masses else _mild(rng, n))
     N = _draw_force(rng, h, EI, near)
     order = _draw_order(rng, n)
     if steep and _largest_step(EI[order]) < STEEP:
@@ -202,8 +220,10 @@ def _draw_omega2(rng, spectrum, near):
     target = str(rng.choice(_KINDS[:5] if near else _KINDS))
     if _is_symmetric(spectrum.chain) and rng.random() < 0.6:
         target = "narrow"
-    if target == "singular" and (found := _singular(rng, spectrum)):
-        return target, *found
+    if target == "singular":
+        if found := _singular(rng, spectrum):
+            return target, *found
+        target = "between"
     negative, rigid = spectrum.negative, spectrum.zeros
     sign = int(rng.choice([-1, 1]))
     if target == "below the first":
@@ -225,20 +245,40 @@ _KINDS = ("below the first", "negative", "about zero", "narrow", "singular", "hi
 
 def _is_symmetric(chain):
     h, EI = chain.h, chain.EI
-    return len(h) > 1 and h == h[::-1] and EI == EI[::-1] and chain.left == chain.right
+    return len(h) > 1 and h == h[::-1] and EI[::-1] == EI and chain.left == chain.right
 
 
 def _singular(rng, spectrum):
-    """omega^2 at a clamped root of one segment, or where its wave numbers coincide."""
-    h, EI, m, N = spectrum.chain.segments[rng.integers(len(spectrum.chain.h))]
-    omega2 = -(N**2) / (4 * EI * m)
-    if N == 0 or rng.random() < 0.5:
-        clamped = BeamChain((h,), (EI,), (m,), (N,), "clamped", "clamped")
-        omega2 = float(eigenvalue(clamped, int(rng.integers(1, 4)), digits=17))
+    """omega^2 where a recursion meets an infinity or a zero inside the chain, and room around."""
+    omega2 = (_coincidence, _clamped_root, _partial_root, _partial_root)[rng.integers(4)](
+        rng, spectrum.chain
+    )
     if omega2 == 0 or _waves(spectrum.chain, omega2) > 100:
         return None
     around = {_count(spectrum.chain, omega2 * (1 + side * NARROWEST_GAP)) for side in (-1, 1)}
     return (omega2, NARROWEST_GAP) if len(around) == 1 else None
+
+
+def _coincidence(rng, chain):
+    """Both wave numbers of a segment coincide."""
+    _, EI, m, N = chain.segments[rng.integers(len(chain.h))]
+    return -(N**2) / (4 * EI * m)
+
+
+def _clamped_root(rng, chain):
+    """A segment resonates between clamped ends."""
+    segment = chain.segments[rng.integers(len(chain.h))]
+    alone = BeamChain(*((value,) for value in segment), "clamped", "clamped")
+    return float(eigenvalue(alone, int(rng.integers(1, 4)), digits=17))
+
+
+def _partial_root(rng, chain):
+    """What lies left of a joint, or of a point in a segment, resonates by itself."""
+    last, part = int(rng.integers(len(chain.h))), rng.choice([1, 1, 1 / 2, 1 / 4, 3 / 4, 1 / 3])
+    h, EI, m, N = (list(values[: last + 1]) for values in (chain.h, chain.EI, chain.m, chain.N))
+    h[last] *= float(part)
+    left = BeamChain(*map(tuple, (h, EI, m, N)), chain.left, str(rng.choice(ENDS)))
+    return float(eigenvalue(left, int(rng.integers(1, 7)), digits=17))
 
 
 def _waves(chain, omega2):

@@ -351,31 +351,35 @@ def negative_at_nodes(steps: Steps, frames: Sweep) -> Integers:
     kind = np.array(steps.kind)
     block, joint = np.flatnonzero(kind == "block"), np.flatnonzero(kind == "joint")
     in_blocks = _negative_in_blocks(steps.U[block], frames.F, frames.R, block)
-    before, after = (_sign_at_joint(frames.F[joint + side]) for side in (0, 1))
+    before, after = (displacement_sign(frames.F[joint + side]) for side in (0, 1))
     return np.asarray(in_blocks + np.sum(before * after < 0, axis=0), dtype=np.int64)
 
 
 def _negative_in_blocks(U: Array, F: Array, R: Array, block: Integers) -> Integers:
     here, following = F[block], F[block + 1]
+    changes = displacement_sign(here) * displacement_sign(following) < 0
     if F.shape[-1] == 1:
-        return np.asarray(np.sum(here[..., 0, 0] * following[..., 0, 0] < 0, axis=0))
+        return np.asarray(np.sum(changes, axis=0))
     P_adjugate = np.empty((*U.shape[:-2], 2, 2))  # P adj(U12); det U12 > 0 in every block
     P_adjugate[..., 0, 0], P_adjugate[..., 0, 1] = U[..., 1, 2], -U[..., 0, 2]
     P_adjugate[..., 1, 0], P_adjugate[..., 1, 1] = U[..., 1, 3], -U[..., 0, 3]
     A_next = following[:, :, :2] @ R[block + 1]
     trace = np.sum(here[:, :, :2] * (P_adjugate @ A_next), axis=(-2, -1))
-    before, after = minor(here, [0, 1]), minor(following, [0, 1])
-    negative = np.where(before * after < 0, 1, np.where(trace < 0, 2, 0))
-    held = before == 0.0  # a supported node has one freedom, or none
-    return np.asarray(np.sum(np.where(held, trace < 0, negative), axis=0))
+    held = minor(here, [0, 1]) == 0.0  # a supported node has one freedom, or none
+    return np.asarray(np.sum(np.where(changes, 1, np.where((trace < 0) & ~held, 2, 0)), axis=0))
 
 
-def _sign_at_joint(F: Array) -> Array:
-    """Return det A, or the slope of the only free state where the deflection is held."""
-    if F.shape[-1] == 1:
-        return F[..., 0, 0]
-    determinant = minor(F, [0, 1])
-    return np.where(determinant == 0.0, F[..., 1, 0] + F[..., 1, 1], determinant)
+def displacement_sign(F: Array) -> Array:
+    """Return what changes its sign where a state of the frame has no displacement.
+
+    That is det A; at a node that is held, the one free displacement, or 1. Both neighbours of a
+    node use the same number, so that its rounding cannot spoil the sum of their counts.
+    """
+    d = F.shape[-1]
+    A = F[..., :d, :]
+    determinant = minor(F, list(range(d)))
+    free = np.sum(A, axis=(-2, -1))
+    return np.where(determinant != 0.0, determinant, np.where(free != 0.0, free, 1.0))
 
 
 def negative_at_end(F: Array, family: Family, right: str) -> Integers:
