@@ -372,14 +372,16 @@ def _negative_in_blocks(U: Array, F: Array, R: Array, block: Integers) -> Intege
 def displacement_sign(F: Array) -> Array:
     """Return what changes its sign where a state of the frame has no displacement.
 
-    That is det A; at a node that is held, the one free displacement, or 1. Both neighbours of a
-    node use the same number, so that its rounding cannot spoil the sum of their counts.
+    That is det A; at a node that is held, the one free displacement, or the sign that A takes just
+    behind it. Both neighbours of a node use the same number, so that its rounding cannot spoil the
+    sum of their counts.
     """
     d = F.shape[-1]
     A = F[..., :d, :]
     determinant = minor(F, list(range(d)))
-    free = np.sum(A, axis=(-2, -1))
-    return np.where(determinant != 0.0, determinant, np.where(free != 0.0, free, 1.0))
+    free = np.sum(A[..., 0], axis=-1)
+    behind = 1.0 if d == 2 else -1.0  # of U12: a reaction Q pushes toward -x
+    return np.where(determinant != 0.0, determinant, np.where(free != 0.0, free, behind))
 
 
 def negative_at_end(F: Array, family: Family, right: str) -> Integers:
