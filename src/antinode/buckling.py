@@ -85,8 +85,8 @@ def buckling(beam: Beam, tolerance: float = 1e-6) -> Buckling | None:
 
 
 def _buckling(bracket: tuple[float, float], error: float) -> Buckling:
-    middle = sum(bracket) / 2
-    return Buckling(middle, bracket, error + (bracket[1] - bracket[0]) / 2)
+    low, high = float(bracket[0]), float(bracket[1])
+    return Buckling((low + high) / 2, (low, high), float(error) + (high - low) / 2)
 
 
 def _critical(chain: Chain, allowed: int) -> tuple[float, float] | None:

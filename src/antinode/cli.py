@@ -12,6 +12,7 @@ from . import __version__
 from .errors import AntinodeError, InputError
 
 if TYPE_CHECKING:
+    from .buckling import Buckling
     from .case import Case
     from .result import ModalResult
 
@@ -145,6 +146,15 @@ def beam(
     tolerance: Tolerance = None,
     method: Method = "riccati",
     shapes: Shapes = "amplitude",
+    buckling: Annotated[
+        bool,
+        Parameter(
+            help="Also find the factor on the axial force at which the beam buckles.",
+            negative="",
+            show_default=False,
+            group=_solver,
+        ),
+    ] = False,
 ) -> None:
     """Compute frequencies and modes of any beam, with no vehicle at all.
 
@@ -160,18 +170,24 @@ def beam(
 
     problem = load_beam(file, set_)
     result = _solve(problem, problem.solve, modes, tolerance, method, shapes)
+    data = result.to_dict()
+    critical = _buckling(result) if buckling else None
+    if buckling:
+        data["buckling"] = critical.to_dict() if critical else None
     if plot:
         from .figures import plot_modes, save
 
         save(plot_modes(result), plot)
-    _write(output, result.to_dict(), result)
+    _write(output, data, result)
     if json:
-        _print_json(result.to_dict())
+        _print_json(data)
         return
-    from .printing import console, show_beam, show_modes
+    from .printing import console, show_beam, show_buckling, show_modes
 
     out = console()
     show_beam(out, result.beam)
+    if buckling:
+        show_buckling(out, critical)
     show_modes(out, result)
     _say_written(output, plot)
 
@@ -314,6 +330,12 @@ def _solve(
         normalisation=shapes,
         unloaded=True,
     )
+
+
+def _buckling(result: ModalResult) -> Buckling | None:
+    from .buckling import buckling
+
+    return buckling(result.beam, result.tolerance)
 
 
 def _condition_dict(case: Case) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from .result import NOT_MODELLED, ModalResult, Mode
 
 if TYPE_CHECKING:
     from .beam import Beam
+    from .buckling import Buckling
     from .case import Case
     from .verify import Check
 
@@ -198,6 +199,17 @@ def show_beam(out: Console, beam: Beam) -> None:
     if not beam.is_unloaded:
         force = f"axial force N from {_kN(N.min())} to {_kN(N.max())} kN (compression positive)"
     out.print(force, highlight=False)
+
+
+def show_buckling(out: Console, critical: Buckling | None) -> None:
+    """Print the load factor at which the first supported mode diverges."""
+    text = "no factor on the axial force buckles it: it is nowhere in compression"
+    if critical is not None:
+        text = (
+            f"buckles at [bold]{critical.load_factor:.6g}[/bold] +- {critical.error:.1e} "
+            "times its axial force (first supported mode, forces of fixed direction)"
+        )
+    out.print(text, highlight=False)
 
 
 def checks_table(checks: Iterable[Check]) -> Table:
