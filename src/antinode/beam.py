@@ -31,7 +31,9 @@ Interpolation = Literal["step", "linear", "log"]
 
 _GAUSS = 0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6
 _NEAR, _FAR = 0.5 + np.sqrt(3) / 3, 0.5 - np.sqrt(3) / 3
-_STEEPEST = 4.0  # ratio of a property across one step that still leaves the averages positive
+_STEEPEST = 4.0  # ratio of a property across one step (averages stay positive up to 13.9)
+_LONGEST = 1 / 16  # share of one step in the waves along the beam
+_MOST_HALVINGS = 40
 
 
 @dataclass(frozen=True)
@@ -328,12 +330,12 @@ class Beam:
         -------
         Chain
         """
-        varies = self.varies(family)
-        steps = np.where(varies, _coarsest_steps(self) * refinement, 1)
-        interval, which = _copies(steps)
-        size = 1.0 / steps[interval]
-        start, length = which * size, np.diff(self.x)[interval] * size
-        halves = np.where(varies[interval], 2, 1)
+        cell, start, size = _coarsest_steps(self, family)
+        times = np.where(self.varies(family)[cell], refinement, 1)
+        which, number = _copies(times)
+        interval, size = cell[which], (size / times)[which]
+        start = start[which] + number * size
+        halves = np.where(self.varies(family)[interval], 2, 1)
         step, second = _copies(halves)
         nearer = np.where(second == 1, _FAR, _NEAR)  # weight of the first Gauss point
 
@@ -346,7 +348,7 @@ class Beam:
         left, right, points = self._points(family, first)
         return Chain(
             points=points,
-            length=(length / halves)[step],
+            length=(np.diff(self.x)[interval] * size / halves)[step],
             mass=average(lambda k, t: self.at(self.mass_per_length, k, t)),
             stiffness=1.0 / average(lambda k, t: 1.0 / self.at(stiffness, k, t)),
             axial_force=average(self.axial_force_at),
@@ -449,18 +451,34 @@ def _partial_mass(beam: Beam, interval: Integers, fraction: Array) -> Array:
     return np.asarray(h * (a + (b - a) * fraction / 2))
 
 
-def _coarsest_steps(beam: Beam) -> Integers:
-    """Return into how many steps each interval is divided at the least."""
-    by_length = np.diff(beam.x) / (beam.length / 24)
-    tables = [beam.mass_per_length, beam.bending_stiffness]
-    if beam.axial_stiffness is not None:
-        tables.append(beam.axial_stiffness)
-    steepness = np.max([np.abs(np.log(t[:, 1] / t[:, 0])) for t in tables], axis=0)
-    by_ratio = steepness / np.log(_STEEPEST)
-    if beam.interpolation == "linear":  # the ratio across equal steps is largest at the small end
-        by_ratio = np.expm1(steepness) / (_STEEPEST - 1)
-    steps: Integers = np.maximum(np.ceil(np.maximum(by_length, by_ratio)), 1).astype(np.int64)
-    return steps
+def _coarsest_steps(beam: Beam, family: Family) -> tuple[Integers, Array, Array]:
+    """Divide intervals in which something varies until no step is long or steep.
+
+    Returns
+    -------
+    interval, start, size : array
+        Of every step; start and size as fractions of the interval's length.
+    """
+    interval = np.arange(len(beam.x) - 1)
+    start, size = np.zeros(len(interval)), np.ones(len(interval))
+    main = beam.bending_stiffness if family == "bending" else _given(beam.axial_stiffness)
+    varies, power = beam.varies(family), 4 if family == "bending" else 2
+    for _ in range(_MOST_HALVINGS):
+        ends = [
+            [beam.at(table, interval, start + side * size) for side in (0.0, 1.0)]
+            for table in (beam.mass_per_length, main)
+        ]
+        steepest = np.max([np.maximum(a / b, b / a) for a, b in ends], axis=0)
+        mass, stiffness = (np.sqrt(a * b) for a, b in ends)
+        phase = (mass / stiffness) ** (1 / power) * np.diff(beam.x)[interval] * size
+        coarse = (steepest > _STEEPEST) | (phase > _LONGEST * np.sum(phase))
+        pieces = np.where(coarse & varies[interval], 2, 1)
+        if np.all(pieces == 1):
+            break
+        which, second = _copies(pieces)
+        interval, size = interval[which], (size / pieces)[which]
+        start = start[which] + second * size
+    return interval, start, size
 
 
 def _check(beam: Beam) -> None:

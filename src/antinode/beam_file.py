@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -15,7 +15,9 @@ from .attachment_tables import AttachmentTables
 from .axial import apply_loads
 from .beam import AxialEnd, Beam, End, Ends, Interpolation
 from .errors import InputError
-from .files import override, read_stations, read_toml, validate
+from .explain import validate
+from .files import naming, read_tables
+from .limits import check_limits
 from .units import Frozen, Number
 from .vehicle import Column, MassTable, check_on_body
 
@@ -33,7 +35,7 @@ COLUMNS = (
 class Solve(Frozen):
     """What to compute, and how well."""
 
-    modes: int = Field(6, ge=1, le=500, description="elastic modes of each family")
+    modes: int = Field(6, ge=1, le=500, strict=True, description="elastic modes of each family")
     tolerance: Annotated[Number, Field(ge=1e-12, le=0.1)] = Field(
         1e-6, description="largest relative error of a frequency by what varies inside segments"
     )
@@ -42,13 +44,13 @@ class Solve(Frozen):
 class BeamEnds(Frozen):
     """How the ends are held."""
 
-    left: End = "free"
-    right: End = "free"
+    left: End = Field("free", description="how the end at the smallest x is held sideways")
+    right: End = Field("free", description="how the end at the largest x is held sideways")
     left_axial: AxialEnd | None = Field(
-        None, description="default: fixed for clamped and pinned, else free"
+        None, description="how the left end is held axially; fixed if clamped or pinned, else free"
     )
     right_axial: AxialEnd | None = Field(
-        None, description="default: fixed for clamped and pinned, else free"
+        None, description="how the right end is held axially; fixed if clamped or pinned, else free"
     )
 
 
@@ -81,8 +83,8 @@ class BeamStations(Frozen):
 def _check_positions(x: Array) -> None:
     if len(x) < 2:
         raise ValueError(f"x has {len(x)} rows; a table of stations needs at least two")
-    if not np.all(np.isfinite(x)):
-        raise ValueError("x must be finite numbers [m]: correct the row with NaN or inf")
+    for i in np.flatnonzero(~np.isfinite(x))[:1]:
+        raise ValueError(f"x, row {i + 1}, is {x[i]}; it must be a finite number: correct this row")
     for i in np.flatnonzero(np.diff(x) <= 0)[:1]:
         step = "remove one of the duplicate rows" if x[i] == x[i + 1] else "sort the rows by x"
         raise ValueError(
@@ -109,8 +111,8 @@ class BeamTable(AttachmentTables):
     interpolation: Interpolation = Field(
         "step", description="how columns run between stations; axial_force linearly unless 'step'"
     )
-    stations: BeamStations
-    ends: BeamEnds = BeamEnds()
+    stations: BeamStations = Field(description="table along the beam, or the name of a CSV file")
+    ends: BeamEnds = Field(BeamEnds(), description="how the ends are held")
     masses: tuple[MassTable, ...] = Field(
         (), description="parts whose mass adds to the stations' (tank, engine, lining)"
     )
@@ -125,8 +127,8 @@ class BeamTable(AttachmentTables):
 class BeamFile(Frozen):
     """A beam file with everything in it."""
 
-    table: BeamTable = Field(alias="beam")
-    solve: Solve = Solve()
+    table: BeamTable = Field(alias="beam", description="the beam itself")
+    solve: Solve = Field(Solve(), description="what to compute, and how well")
 
     def beam(self) -> Beam:
         """Return the beam that the file describes."""
@@ -179,22 +181,10 @@ def load_beam(path: str | Path, assignments: Iterable[str] = ()) -> BeamFile:
         If anything in it is wrong.
     """
     path = Path(path)
-    tables = read_toml(path)
-    override(tables, assignments)
+    tables, where, elsewhere = read_tables(path, assignments, "beam", COLUMNS)
     if "vehicle" in tables and "beam" not in tables:
         raise InputError(f"{path}: this is a vehicle's case; use 'antinode modes {path}'")
-    file = validate(BeamFile, _with_stations(tables, path), str(path))
-    try:
-        file.beam()
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
+    file = validate(BeamFile, tables, where, elsewhere)
+    with naming(where):
+        check_limits(file.beam())
     return file
-
-
-def _with_stations(tables: dict[str, Any], path: Path) -> dict[str, Any]:
-    beam = tables.get("beam")
-    if not isinstance(beam, dict) or "stations" not in beam:
-        return tables
-    key = f"{path}: beam.stations"
-    stations = read_stations(beam["stations"], path.parent, key, COLUMNS)
-    return {**tables, "beam": {**beam, "stations": stations}}

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,8 +13,10 @@ from pydantic import Field
 from .beam import Beam
 from .beam_file import Solve
 from .condition import OperatingCondition, Water
-from .errors import InputError
-from .files import override, read_stations, read_toml, validate
+from .errors import ComputationError, InputError
+from .explain import validate
+from .files import naming, read_tables
+from .limits import check_limits
 from .loads import Loads, compute_loads
 from .model import Model
 from .units import Frozen
@@ -33,19 +34,30 @@ COLUMNS = (
 )
 
 
+_BEYOND = (
+    "the loads are too large or too small for numbers; check the case for values of a wrong unit"
+)
+
+
 class Case(Frozen):
     """A vehicle in a condition, with all choices made."""
 
-    vehicle: Vehicle
-    condition: OperatingCondition
-    water: Water = Field(default_factory=Water)
-    model: Model = Field(default_factory=Model)
-    solve: Solve = Field(default_factory=Solve)
+    vehicle: Vehicle = Field(description="stations, cavitator, fins")
+    condition: OperatingCondition = Field(description="how the vehicle moves")
+    water: Water = Field(default=Water(), description="the water; by default fresh, of 20 C")
+    model: Model = Field(default=Model(), description="choices that the equations leave open")
+    solve: Solve = Field(default=Solve(), description="what to compute, and how well")
 
     @cached_property
     def loads(self) -> Loads:
         """Cavity, forces, accelerations and internal forces in this condition."""
-        return compute_loads(self.vehicle, self.condition, self.water, self.model)
+        try:
+            loads = compute_loads(self.vehicle, self.condition, self.water, self.model)
+        except (OverflowError, ZeroDivisionError) as error:
+            raise ComputationError(_BEYOND) from error
+        if not np.all(np.isfinite([*loads.body, *loads.axial_jump])):
+            raise ComputationError(_BEYOND)
+        return loads
 
     def beam(self) -> Beam:
         """Return the free-free beam under the axial force of this condition."""
@@ -116,19 +128,14 @@ def load_case(path: str | Path, assignments: Iterable[str] = ()) -> Case:
     ------
     InputError
         If anything in it is wrong.
+    ComputationError
+        If the loads are beyond what numbers can hold.
     """
     path = Path(path)
-    tables = read_toml(path)
-    override(tables, assignments)
+    tables, where, elsewhere = read_tables(path, assignments, "vehicle", COLUMNS)
     if "beam" in tables and "vehicle" not in tables:
         raise InputError(f"{path}: this is a beam file; use 'antinode beam {path}'")
-    return validate(Case, _with_stations(tables, path), str(path))
-
-
-def _with_stations(tables: dict[str, Any], path: Path) -> dict[str, Any]:
-    vehicle = tables.get("vehicle")
-    if not isinstance(vehicle, dict) or "stations" not in vehicle:
-        return tables
-    key = f"{path}: vehicle.stations"
-    stations = read_stations(vehicle["stations"], path.parent, key, COLUMNS)
-    return {**tables, "vehicle": {**vehicle, "stations": stations}}
+    case = validate(Case, tables, where, elsewhere)
+    with naming(where):
+        check_limits(case.beam())
+    return case

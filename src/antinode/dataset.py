@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import csv
+import errno
 import io
 import json
 import math
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +18,7 @@ import numpy as np
 from . import __version__
 from .errors import InputError
 from .result import COMPONENTS, ModalResult, Mode
+from .text import short
 
 if TYPE_CHECKING:
     import xarray
@@ -120,17 +124,20 @@ def modal_table(result: ModalResult) -> str:
     return out.getvalue()
 
 
-def to_json(data: dict[str, Any]) -> str:
-    """Return strict JSON (no NaN) of a result's dictionary."""
-    return json.dumps(data, indent=2, allow_nan=False, default=_plain)
+def to_json(data: object) -> str:
+    """Return strict JSON of a result's dictionary: null stands for NaN and infinity."""
+    return json.dumps(_plain(data), indent=2, allow_nan=False)
 
 
 def _plain(value: object) -> object:
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    raise TypeError(f"{type(value).__name__} cannot be written as JSON")
+    """Return a value of Python's own types that JSON has, recursively."""
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def write_result(
@@ -144,32 +151,61 @@ def write_result(
     Raises
     ------
     InputError
-        If the ending is another, the folder is missing, or a library for it is not installed.
+        If the ending is another, the file cannot be written, or a library for it is not installed.
     """
     writers: dict[str, Callable[[Path], None]] = {
         ".json": lambda p: _write_text(p, to_json(data) + "\n"),
         ".csv": lambda p: _write_text(p, table()),
         ".nc": lambda p: _write_netcdf(p, dataset()),
     }
-    check_output(path, writers)
+    check_output(path, ENDINGS)
     partial = path.with_name(f".{path.name}.partial")
     try:
         writers[path.suffix.lower()](partial)
         partial.replace(path)
     except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
+        raise InputError(_cannot_write(path, error)) from error
     finally:
-        partial.unlink(missing_ok=True)
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
 
 
-def check_output(path: Path, endings: Any) -> None:
+ENDINGS = (".csv", ".json", ".nc")
+
+
+def check_output(path: Path, endings: Iterable[str]) -> None:
     """Raise InputError if a file of this name cannot be written, before any work is done."""
     if path.suffix.lower() not in endings:
         allowed = ", ".join(endings)
         raise InputError(f"{path}: the ending says what to write; allowed are {allowed}")
-    if path.is_dir() or not path.parent.is_dir():
-        what = "is a folder" if path.is_dir() else f"lies in no existing folder ({path.parent})"
-        raise InputError(f"{path}: {what}; name a file in an existing folder")
+    try:
+        folder, exists = path.is_dir(), path.exists()
+        if not folder and not path.parent.is_dir():
+            raise InputError(f"{path}: there is no folder {path.parent}; make it, or name another")
+        if not folder and not os.access(path if exists else path.parent, os.W_OK):
+            raise PermissionError(errno.EACCES, "Permission denied")
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(_cannot_write(path, error)) from error
+    if folder:
+        raise InputError(f"{path}: this is a folder; name a file in it")
+    if path.suffix.lower() == ".nc":
+        for module in ("xarray", "h5netcdf"):
+            import_extra(module)
+    if exists and path.suffix.lower() == ".csv" and _is_station_table(path):
+        raise InputError(f"{path}: this is a table of stations, an input; name another file")
+
+
+def _cannot_write(path: Path, error: Exception) -> str:
+    reason = (getattr(error, "strerror", None) or str(error)).partition(" (")[0]
+    return f"{short(str(path))} cannot be written ({reason}); name another file or folder"
+
+
+def _is_station_table(path: Path) -> bool:
+    """Tell whether a CSV file is an input, which must not be overwritten."""
+    with path.open(encoding="utf-8", errors="replace") as file:
+        return "mass_per_length" in file.read(10_000)
 
 
 def _write_text(path: Path, text: str) -> None:
@@ -177,5 +213,4 @@ def _write_text(path: Path, text: str) -> None:
 
 
 def _write_netcdf(path: Path, dataset: xarray.Dataset) -> None:
-    import_extra("h5netcdf")
     dataset.to_netcdf(path, engine="h5netcdf")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -53,22 +52,56 @@ def internal_forces(case: Case, points: int = 201) -> dict[str, np.ndarray]:
     return {"x": both(x, x), "N": both(N0, N1), "Q": both(Q0, Q1), "M": both(M, M)}
 
 
-def loads_dict(case: Case) -> dict[str, Any]:
-    """Return the loads as plain numbers for JSON, units in the keys."""
-    loads, planing = case.loads, case.loads.planing
-    table = internal_forces(case)
+def condition_dict(case: Case) -> dict[str, Any]:
+    """Return the condition with its units in the keys."""
+    units = {
+        "speed": "m_per_s",
+        "depth": "m",
+        "cavity_pressure": "Pa",
+        "cavitator_angle": "rad",
+        "body_angle": "rad",
+        "fin_position": "m",
+        "thrust": "N",
+    }
+    values = case.condition.model_dump()
+    named = {f"{key}_{units[key]}" if key in units else key: v for key, v in values.items()}
+    return {**named, "cavitation_number": case.loads.sigma}
+
+
+def loads_summary(case: Case) -> dict[str, Any]:
+    """Return forces, accelerations, N at both ends and checks as plain numbers for JSON."""
+    loads = case.loads
+    N = loads.axial_force([0.0, case.vehicle.length])
     return {
-        "schema_version": 1,
-        "name": case.vehicle.name,
         "cavitation_number": loads.sigma,
-        "cavity_pressure_Pa": loads.cavity_pressure,
-        "depth_m": loads.depth,
         "cavity": {"length_m": loads.cavity.L_c, "largest_diameter_m": loads.cavity.D_c},
         "forces": [
             {"name": f.name, "x_m": f.x, "drag_N": f.F_X, "lift_N": f.F_Y} for f in loads.forces
         ],
         "thrust_N": loads.thrust,
         "weight_N": loads.weight,
+        "mass_kg": loads.mass,
+        "centre_of_mass_m": loads.x_M,
+        "moment_of_inertia_kg_m2": loads.inertia,
+        "acceleration_forward_m_per_s2": loads.a_X,
+        "acceleration_up_m_per_s2": loads.a_Y,
+        "angular_acceleration_nose_up_rad_per_s2": loads.beta,
+        "axial_force_nose_N": float(N[0]),
+        "axial_force_tail_N": float(N[1]),
+        "checks": loads.checks._asdict(),
+    }
+
+
+def loads_dict(case: Case) -> dict[str, Any]:
+    """Return all that is known of the loads as plain numbers for JSON, units in the keys."""
+    loads, planing = case.loads, case.loads.planing
+    table = internal_forces(case)
+    return {
+        "schema_version": 1,
+        "name": case.vehicle.name,
+        **loads_summary(case),
+        "cavity_pressure_Pa": loads.cavity_pressure,
+        "depth_m": loads.depth,
         "fins": [{"x_m": f.position, "immersion_m": list(f.immersion)} for f in loads.fins],
         "planing": {
             "drag_N": planing.F_PX,
@@ -78,20 +111,10 @@ def loads_dict(case: Case) -> dict[str, Any]:
             "wetted_area_m2": planing.area,
             "wetted_all_round": planing.all_round,
         },
-        "mass_kg": loads.mass,
-        "centre_of_mass_m": loads.x_M,
-        "moment_of_inertia_kg_m2": loads.inertia,
-        "acceleration_forward_m_per_s2": loads.a_X,
-        "acceleration_up_m_per_s2": loads.a_Y,
-        "angular_acceleration_nose_up_rad_per_s2": loads.beta,
         "internal": {
             f"{name}_{unit.replace(' ', '_')}": table[name].tolist() for name, unit, _ in _COLUMNS
         },
-        "checks": loads.checks._asdict(),
-        "validity": [
-            {**row._asdict(), "high": None if math.isinf(row.high) else row.high}
-            for row in loads.validity
-        ],
+        "validity": [row._asdict() for row in loads.validity],
         "warnings": list(loads.warnings),
     }
 

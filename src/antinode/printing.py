@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
+from rich.console import Console, JustifyMethod
 from rich.markup import escape
+from rich.measure import Measurement
 from rich.table import Table
+from rich.text import Text
 
 from .result import NOT_MODELLED, ModalResult, Mode
+from .text import one_line
+from .verify import ALLOWED
 
 if TYPE_CHECKING:
     from .beam import Beam
@@ -21,44 +26,89 @@ if TYPE_CHECKING:
     from .verify import Check
 
 _WIDTH = 104
+_LONGEST_NAME = 80
 
 
 def console() -> Console:
-    """Return the console for results, wide enough for the tables when output is not a terminal."""
+    """Return the console for results: as wide as the terminal, or 104 columns where there is none.
+
+    The environment variable COLUMNS says otherwise.
+    """
     plain = Console()
-    return plain if plain.is_terminal else Console(width=_WIDTH, color_system=None)
+    if plain.is_terminal:
+        return plain
+    columns = os.environ.get("COLUMNS", "")
+    width = int(columns) if columns.isdecimal() and len(columns) < 5 else _WIDTH
+    return Console(width=max(width, 20), color_system=None)
+
+
+def _table(*headings: str, left: Sequence[str] = ()) -> Table:
+    """Return an empty table; columns hold numbers, to the right, but for those in `left`."""
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    for heading in headings:
+        side: JustifyMethod = "left" if heading in left else "right"
+        table.add_column(Text(heading), justify=side, no_wrap=heading not in left[:1])
+    return table
+
+
+def _row(table: Table, *cells: str) -> None:
+    """Add a row of plain text, in which no bracket is a mark."""
+    table.add_row(*(Text(cell) for cell in cells))
 
 
 def show_modes(out: Console, result: ModalResult) -> None:
     """Print the table of modes, then warnings and what the model leaves out."""
-    out.print(modes_table(result))
+    out.print(modes_table(result, out))
     show_warnings(out, result.warnings)
     out.print(f"[dim]Not in the model: {'; '.join(NOT_MODELLED)}.[/dim]", highlight=False)
 
 
-def modes_table(result: ModalResult) -> Table:
-    """Return the table: family, number, kind, frequency +- error, shift, model column."""
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    table.add_column("mode")
-    table.add_column("kind")
-    table.add_column("frequency [Hz]", justify="right")
-    table.add_column("+- error [Hz]", justify="right")
-    table.add_column("by axial force", justify="right")
-    table.add_column("by shear, rot. inertia", justify="right")
+_HEADINGS = {
+    "mode": "mode",
+    "kind": "kind",
+    "frequency [Hz]": "f [Hz]",
+    "+- error [Hz]": "+- [Hz]",
+    "by axial force": "by N",
+    "by shear, rot. inertia": "by shear",
+}
+"""Headings of the table of modes, and what they shrink to on a narrow terminal."""
+
+
+def modes_table(result: ModalResult, out: Console) -> Table:
+    """Return the table of modes that fits the console: in short words, or with fewer columns."""
+    headings = tuple(_HEADINGS)
+    brief = tuple(_HEADINGS.values())
+    choices = ((headings, False), (headings, True), *((brief[:n], True) for n in (6, 5, 4, 3)))
+    return _fitting((_modes_table(result, *choice) for choice in choices), out)
+
+
+def _fitting(tables: Iterable[Table], out: Console) -> Table:
+    """Return the first table that fits the console, or else the last one."""
+    for table in tables:
+        options = out.options.update(width=10 * _WIDTH)
+        if Measurement.get(out, options, table).maximum <= out.width:
+            break
+    return table
+
+
+def _modes_table(result: ModalResult, headings: Sequence[str], brief: bool) -> Table:
+    table = _table(*headings, left=headings[:2])
     family = ""
     for mode in result.modes:
         if family and mode.family != family:
             table.add_section()
         family = mode.family
-        table.add_row(*_cells(mode))
+        _row(table, *_cells(mode, brief)[: len(headings)])
     return table
 
 
-def _cells(mode: Mode) -> tuple[str, ...]:
-    name = mode.name if mode.number else f"{mode.family} {mode.name}"
+def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
+    name = mode.name if mode.number else mode.name.replace("rigid", mode.family)
+    name = name.replace("longitudinal translation", "longitudinal rigid")
     if mode.omega2 < 0:
-        growth = f"grows at {mode.growth_rate_per_s:.5g} /s"
-        return name, "divergent", growth, f"{mode.error_growth_rate_per_s:.1e}", "", ""
+        growth = f"{mode.growth_rate_per_s:.5g} /s"
+        error = f"{mode.error_growth_rate_per_s:.1e}"
+        return name, "divergent", growth if brief else f"grows at {growth}", error, "", ""
     exact = mode.omega2 == 0.0
     return (
         name,
@@ -93,7 +143,8 @@ def show_warnings(out: Console, warnings: Iterable[str]) -> None:
 def show_condition(out: Console, case: Case) -> None:
     """Print the condition and the loads in a few lines."""
     c, loads = case.condition, case.loads
-    out.print(f"[bold]{escape(case.vehicle.name)}[/bold]  {_condition_text(case)}", highlight=False)
+    name = _plain(case.vehicle.name)
+    out.print(f"[bold]{name}[/bold]  {_condition_text(case)}", highlight=False)
     planing = "none" if loads.F_PX == 0 and loads.F_PY == 0 else f"{_kN(loads.F_PX)} kN"
     out.print(
         f"cavity {loads.cavity.L_c:.3g} m long, {loads.cavity.D_c:.3g} m wide; drag: cavitator "
@@ -124,6 +175,11 @@ def _condition_text(case: Case) -> str:
     return ", ".join(part for part in parts if part)
 
 
+def _plain(name: str) -> str:
+    """Return a name from a file without what a terminal would obey."""
+    return escape(one_line(name, _LONGEST_NAME))
+
+
 def _kN(force: float) -> str:
     return f"{force / 1e3:.4g}"
 
@@ -133,55 +189,48 @@ def show_loads(out: Console, case: Case) -> None:
     show_condition(out, case)
     out.print(_forces_table(case))
     out.print(_internal_table(case))
-    out.print(_validity_table(case))
+    out.print(_fitting((_validity_table(case, columns) for columns in (5, 4)), out))
     show_warnings(out, case.loads.warnings)
 
 
 def _forces_table(case: Case) -> Table:
     loads = case.loads
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("force", "x [m]", "drag, aft [N]", "lift, up [N]"):
-        table.add_column(heading, justify="left" if heading == "force" else "right")
+    table = _table("force", "x [m]", "drag, aft [N]", "lift, up [N]", left=("force",))
     for force in loads.forces:
-        table.add_row(force.name, f"{force.x:.4g}", f"{force.F_X:.6g}", f"{force.F_Y:.6g}")
-    table.add_row("thrust", f"{case.vehicle.length:.4g}", f"{-loads.thrust:.6g}", "")
-    table.add_row("weight", f"{loads.x_M:.4g}", "", f"{-loads.weight:.6g}")
+        _row(table, force.name, f"{force.x:.4g}", f"{force.F_X:.6g}", f"{force.F_Y:.6g}")
+    _row(table, "thrust", f"{case.vehicle.length:.4g}", f"{-loads.thrust:.6g}", "")
+    _row(table, "weight", f"{loads.x_M:.4g}", "", f"{-loads.weight:.6g}")
     table.add_section()
-    table.add_row(
-        "acceleration of the body",
-        "",
-        f"{-loads.a_X:.5g} m/s^2",
-        f"{loads.a_Y:.5g} m/s^2",
-    )
-    table.add_row("angular, nose-up", "", "", f"{loads.beta:.5g} rad/s^2")
+    forward, up = f"{-loads.a_X:.5g} m/s^2", f"{loads.a_Y:.5g} m/s^2"
+    _row(table, "acceleration of the body", "", forward, up)
+    _row(table, "angular, nose-up", "", "", f"{loads.beta:.5g} rad/s^2")
     return table
 
 
 def _internal_table(case: Case) -> Table:
     loads, x = case.loads, np.linspace(0, case.vehicle.length, 9)
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("x [m]", "N [kN]", "Q [kN]", "M [kN m]"):
-        table.add_column(heading, justify="right")
-    rows = (
+    table = _table("x [m]", "N [kN]", "Q [kN]", "M [kN m]")
+    rows = zip(
         x,
         loads.axial_force(x) / 1e3,
         loads.shear_force(x) / 1e3,
         loads.bending_moment(x) / 1e3,
+        strict=True,
     )
-    for position, N, Q, M in zip(*rows, strict=True):
-        table.add_row(f"{position:.3f}", f"{N:.4f}", f"{Q:.4f}", f"{M:.4f}")
+    for position, *forces in rows:
+        _row(table, f"{position:.3f}", *(f"{round(force, 4) + 0.0:.4f}" for force in forces))
     return table
 
 
-def _validity_table(case: Case) -> Table:
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("correlation", "quantity", "value", "valid range", ""):
-        table.add_column(heading)
+def _validity_table(case: Case, columns: int) -> Table:
+    words = ("correlation", "quantity", "value", "valid range", "")[:columns]
+    table = _table(*words, left=words)
     for row in case.loads.validity:
         high = "" if math.isinf(row.high) else f" ... {row.high:g}"
         low = f"from {row.low:g}" if math.isinf(row.high) else f"{row.low:g}"
-        mark = "inside" if row.inside else "[bold]outside[/bold]"
-        table.add_row(row.correlation, row.quantity, f"{row.value:.4g}", low + high, mark)
+        mark = "inside" if row.inside else "OUTSIDE"
+        cells = (row.correlation, row.quantity, f"{row.value:.4g}", low + high, mark)
+        _row(table, *cells[:columns])
     return table
 
 
@@ -189,7 +238,7 @@ def show_beam(out: Console, beam: Beam) -> None:
     """Print what the beam is, in two lines."""
     e = beam.ends
     out.print(
-        f"[bold]{escape(beam.name)}[/bold]  {beam.length:.5g} m, {beam.mass:.5g} kg, "
+        f"[bold]{_plain(beam.name)}[/bold]  {beam.length:.5g} m, {beam.mass:.5g} kg, "
         f"{len(beam.x) - 1} intervals ({beam.interpolation}), {e.left} - {e.right}",
         highlight=False,
     )
@@ -212,12 +261,20 @@ def show_buckling(out: Console, critical: Buckling | None) -> None:
     out.print(text, highlight=False)
 
 
+def show_checks(checks: Sequence[Check]) -> None:
+    """Print the table of built-in checks and the verdict."""
+    failed = sum(not check.passed for check in checks)
+    out = console()
+    out.print(checks_table(checks))
+    verdict = f"{failed} of {len(checks)} checks failed" if failed else "all checks passed"
+    out.print(f"{verdict} (allowed relative error of a frequency {ALLOWED:g})", highlight=False)
+
+
 def checks_table(checks: Iterable[Check]) -> Table:
     """Return the table of built-in checks."""
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("check", "closed form", "modes", "worst relative error", ""):
-        table.add_column(heading, justify="right" if heading in ("modes",) else "left")
+    left = ("check", "closed form", "worst relative error", "")
+    table = _table("check", "closed form", "modes", "worst relative error", "", left=left)
     for check in checks:
-        mark = "passed" if check.passed else "[bold red]FAILED[/bold red]"
-        table.add_row(check.name, check.formula, str(check.modes), f"{check.worst:.1e}", mark)
+        mark = "passed" if check.passed else "FAILED"
+        _row(table, check.name, check.formula, str(check.modes), f"{check.worst:.1e}", mark)
     return table

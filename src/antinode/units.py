@@ -10,15 +10,18 @@ pint, which is imported only when a string is met. Use the annotated types in py
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic_core import PydanticCustomError, core_schema
+from pydantic_core import PydanticCustomError, PydanticKnownError, core_schema
 
 if TYPE_CHECKING:
     import pint
+
+_LONGEST = 80  # characters of a number with its unit
 
 
 @cache
@@ -49,29 +52,36 @@ def to_si(value: object, unit: str) -> float:
         If the text is not a number with a unit of the right dimension, or is not a number at all.
     """
     if isinstance(value, bool) or not isinstance(value, int | float | str):
-        raise ValueError(f"needs a number, or a string with a unit such as '1 {unit}'".rstrip())
-    if not isinstance(value, str):
+        raise ValueError(f"it needs a number{_with_unit(unit)}")
+    if isinstance(value, str):
+        return _parse(value, unit)
+    try:
         return float(value)
-    return _parse(value, unit)
+    except OverflowError:
+        raise ValueError("it needs a number below 1e308") from None
 
 
-@cache
+def _with_unit(unit: str) -> str:
+    return f", or a text with a unit such as '1 {unit}'" if unit else ""
+
+
+@lru_cache(maxsize=10_000)
 def _parse(text: str, unit: str) -> float:
     try:
         return float(text)
     except ValueError:
         pass
-    if len(text) > 80:
-        raise ValueError("needs a number with a unit, at most 80 characters long")
+    if len(text) > _LONGEST:
+        raise ValueError(f"it needs a number with a unit, at most {_LONGEST} characters long")
     number, _, suffix = text.strip().partition(" ")
     try:
         magnitude = float(number)
     except ValueError:
-        magnitude, suffix = _split_number(text)
-    return magnitude * unit_factor(suffix, unit)
+        magnitude, suffix = _split_number(text, unit)
+    return magnitude * unit_factor(suffix.strip(), unit)
 
 
-def _split_number(text: str) -> tuple[float, str]:
+def _split_number(text: str, unit: str) -> tuple[float, str]:
     """Split ``"80mm"`` into ``(80.0, "mm")``."""
     text = text.strip()
     for end in range(len(text), 0, -1):
@@ -79,10 +89,10 @@ def _split_number(text: str) -> tuple[float, str]:
             return float(text[:end]), text[end:].strip()
         except ValueError:
             continue
-    raise ValueError("needs a number first, then its unit, such as '1.5 m'")
+    raise ValueError(f"it needs a number{_with_unit(unit)}")
 
 
-@cache
+@lru_cache(maxsize=1000)
 def unit_factor(written: str, unit: str) -> float:
     """Return the factor that turns a number of `written` units into SI `unit`.
 
@@ -93,15 +103,29 @@ def unit_factor(written: str, unit: str) -> float:
     """
     if written.strip() == unit:
         return 1.0
+    wrong = (
+        f"'{written}' is no unit of {unit}" if unit else "it needs a pure number, without a unit"
+    )
+    if _POWER_OF_POWER.search(written) or _TWO_DIGITS.search(written):
+        raise ValueError(wrong)
     registry = _registry()
     try:
-        quantity = registry.Quantity(1.0, registry.parse_units(written))
-        factor = float(quantity.to(unit or "dimensionless").magnitude)
+        parsed = registry.parse_units(written)
+        zero, factor = (
+            float(registry.Quantity(value, parsed).to(unit or "dimensionless").magnitude)
+            for value in (0.0, 1.0)
+        )
     except Exception as error:  # pint raises tokenizer, attribute and dimension errors of its own
-        raise ValueError(f"'{written}' is no unit of {unit or 'a pure number'}") from error
-    if not math.isfinite(factor) or factor <= 0:
-        raise ValueError(f"'{written}' is no unit of {unit or 'a pure number'}")
+        raise ValueError(wrong) from error
+    if zero != 0 or not math.isfinite(factor) or factor <= 0:  # degC, dB
+        raise ValueError(wrong)
     return factor
+
+
+_TWO_DIGITS = re.compile(r"\d\d")
+_POWER = r"(?:\^|\*\*|[\u00b2\u00b3\u00b9\u2070-\u2079])"
+_POWER_OF_POWER = re.compile(f"{_POWER}[^A-Za-z]*{_POWER}")
+"""What no unit needs, but keeps a parser busy for ever, as 9^9^9 does."""
 
 
 @dataclass(frozen=True)
@@ -121,9 +145,7 @@ class Unit:
                     "quantity", "{reason}", {"reason": str(error), "unit": self.symbol}
                 ) from error
             if math.isnan(result):
-                raise PydanticCustomError(
-                    "quantity", "{reason}", {"reason": "is not a number", "unit": self.symbol}
-                )
+                raise PydanticKnownError("finite_number")
             return result
 
         return core_schema.no_info_before_validator_function(convert, handler(source))
@@ -132,9 +154,21 @@ class Unit:
         self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
         unit = self.symbol or "1"
-        number = {**handler(schema), "description": f"SI number [{unit}]"}
-        text = {"type": "string", "description": f"a number with a unit, e.g. '1 {unit}'"}
+        number = {_JSON_NAMES.get(key, key): value for key, value in handler(schema).items()}
+        number["description"] = f"SI number [{unit}]"
+        text = {"type": "string", "description": f"a number with a unit, e.g. '1 {self.symbol}'"}
+        if not self.symbol:
+            text["description"] = "the number as a text"
         return {"anyOf": [number, text], "unit": unit}
+
+
+_JSON_NAMES = {
+    "gt": "exclusiveMinimum",
+    "ge": "minimum",
+    "lt": "exclusiveMaximum",
+    "le": "maximum",
+}
+"""Keywords of JSON Schema for the bounds that pydantic leaves under its own names."""
 
 
 Length = Annotated[float, Unit("m")]

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -41,6 +42,16 @@ class Check:
     def passed(self) -> bool:
         """Whether the worst difference is within `ALLOWED`."""
         return self.worst <= ALLOWED
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as plain numbers for JSON."""
+        return {
+            "name": self.name,
+            "formula": self.formula,
+            "modes": self.modes,
+            "worst_relative_error": self.worst,
+            "passed": self.passed,
+        }
 
 
 def run_checks() -> list[Check]:

@@ -71,7 +71,7 @@ def _attach(beam, nodes, joints, right_slope, K, M):
             d, J, mass = item.offset, item.rotary_inertia, item.mass
             M[at : at + 2, at : at + 2] += mass * np.array([[1, d], [d, d * d + J / mass]])
             if beam.offset_weight:
-                K[at + 1, at + 1] -= beam.axial_acceleration * mass * d
+                K[at + 1, at + 1] += beam.axial_acceleration * mass * d
         elif type(item).__name__ == "Spring":
             for i, stiffness in enumerate((item.translational, item.rotational)):
                 if np.isinf(stiffness):

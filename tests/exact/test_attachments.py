@@ -5,9 +5,11 @@ import math
 import hermite
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 
 from antinode import Beam, Ends, solve_modes
 from antinode.attachments import Joint, PointMass, Spring
+from antinode.axial import AxialLoads, apply_loads
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 EACH = {
@@ -145,3 +147,40 @@ def test_longitudinal_mass_spring_and_joint():
     held = bar.with_attachments(Spring(0.5, axial=math.inf))
     values = [m.omega2 for m in solve_modes(held, 3).family("longitudinal")]
     np.testing.assert_allclose(np.sqrt(values), [math.pi, 2 * math.pi, 3 * math.pi], rtol=1e-12)
+
+
+@pytest.mark.parametrize("offset", [0.3, -0.3])
+@pytest.mark.parametrize("gravity", [-2.0, 2.0])
+def test_the_weight_of_an_offset_mass_acts_as_at_the_end_of_a_rigid_arm(offset, gravity):
+    """A rigid massless arm with the mass at its end needs no term for the offset's weight.
+
+    The arm is a very stiff, very light end piece; an offset toward the beam is one of a beam that
+    is cut back, so that the arm stands where the beam was.
+    """
+    base = Beam.from_stations([0.0, 1.0], 1.0, 3.0, 1e6, ends=Ends("clamped", "free"))
+    mass = PointMass(1.0, 0.8, 0.02, offset)
+    loaded = apply_loads(base.with_attachments(mass), AxialLoads(gravity=gravity))
+    found = solve_modes(loaded, 3, tolerance=1e-9).frequencies_hz()
+    K, M = arm_matrices(offset, gravity)
+    omega2 = eigh(K, M, eigvals_only=True, subset_by_index=[0, 2])
+    np.testing.assert_allclose(found, np.sqrt(omega2) / (2 * math.pi), rtol=5e-5)
+
+
+def arm_matrices(offset, gravity, n=60):
+    """Hermite elements whose last node carries a rigid arm; the potential of its weight by hand.
+
+    The mass sits at (x + d cos theta, Y + d sin theta); the force F = m g along +x has the
+    potential -F (x + d cos theta), that is +F d theta^2/2 to second order.
+    """
+    m_p, J, F = 0.8, 0.02, 0.8 * gravity
+    K, M = np.zeros((2 * n + 2, 2 * n + 2)), np.zeros((2 * n + 2, 2 * n + 2))
+    for e in range(n):
+        index = slice(2 * e, 2 * e + 4)
+        ahead = (1 - (e + 0.5) / n) * gravity + F  # force along +x on all that lies beyond
+        k, m = hermite.element(1 / n, 1.0, 3.0, -ahead)
+        K[index, index] += k
+        M[index, index] += m
+    tip = slice(2 * n, 2 * n + 2)
+    M[tip, tip] += [[m_p, m_p * offset], [m_p * offset, m_p * offset**2 + J]]
+    K[-1, -1] += F * offset
+    return K[2:, 2:], M[2:, 2:]

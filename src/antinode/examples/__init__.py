@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
+from contextlib import suppress
 from pathlib import Path
 
 from antinode.errors import InputError
@@ -19,7 +19,7 @@ EXAMPLES = {
 
 
 def write_example(name: str, folder: Path) -> tuple[list[Path], str]:
-    """Write an example into a folder; touch nothing if one of its files exists already.
+    """Write an example into a folder, all its files or none; never over a file that exists.
 
     Parameters
     ----------
@@ -41,18 +41,43 @@ def write_example(name: str, folder: Path) -> tuple[list[Path], str]:
         If there is no such example, a file exists already, or the folder cannot be written.
     """
     if name not in EXAMPLES:
-        raise InputError(f"there is no example '{name}'; allowed are {', '.join(EXAMPLES)}")
-    sources = sorted(files(__package__).joinpath(name).iterdir(), key=lambda f: f.name)
-    texts = {folder / source.name: source.read_text(encoding="utf-8") for source in sources}
-    for path in texts:
-        if path.exists():
-            raise InputError(f"{path} exists already and is kept; name another folder")
+        raise InputError(f"there is no example '{name[:40]}'; allowed are {', '.join(EXAMPLES)}")
+    texts = {folder / file: text for file, text in _texts(name).items()}
     try:
+        for path in texts:
+            if path.exists():
+                raise InputError(f"{path} exists already and is kept; name another folder")
         folder.mkdir(parents=True, exist_ok=True)
-        for path, text in texts.items():
-            with path.open("x", encoding="utf-8") as file:
-                file.write(text)
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from error
+        _write(texts)
+    except InputError:
+        raise
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(
+            f"the folder '{str(folder)[:200]}' cannot be written ({reason}); name another folder"
+        ) from error
     prefix = "" if folder == Path() else f"{folder.as_posix()}/"
     return list(texts), EXAMPLES[name].format(folder=prefix)
+
+
+def _texts(name: str) -> dict[str, str]:
+    """Return the files of an example: names and contents."""
+    from importlib.resources import files
+
+    sources = sorted(files(__package__).joinpath(name).iterdir(), key=lambda file: file.name)
+    return {source.name: source.read_text(encoding="utf-8") for source in sources}
+
+
+def _write(texts: dict[Path, str]) -> None:
+    """Write new files; remove them again if one cannot be written."""
+    written: list[Path] = []
+    try:
+        for path, text in texts.items():
+            with path.open("x", encoding="utf-8") as file:
+                written.append(path)
+                file.write(text)
+    except OSError:
+        for path in written:
+            with suppress(OSError):
+                path.unlink()
+        raise

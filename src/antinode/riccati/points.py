@@ -2,10 +2,10 @@
 
 A point changes the state between its two sides. From the energy of each (docs/theory/beam.md), in
 bending, for a mass m_p whose centre lies d to the right of the node and has the inertia J, springs
-to ground k and k_r, the mass' own axial load P, and a joint of rotational compliance f::
+to ground k and k_r, the mass' own axial force P along +x, and a joint of rotational compliance f::
 
     Q+ = Q- + omega^2 m_p (Y + d theta) - k Y
-    M+ = M- - omega^2 [m_p d (Y + d theta) + J theta] + k_r theta - P d theta
+    M+ = M- - omega^2 [m_p d (Y + d theta) + J theta] + k_r theta + P d theta
     theta+ = theta- + f M
 
 and longitudinally ``Q+ = Q- + omega^2 m_p X - k X``, ``X+ = X- - f Q``. A support (an infinite
@@ -88,7 +88,7 @@ class Point:
         T[:, 3, 0] = omega2 * m - self.spring
         T[:, 3, 1] = omega2 * m * d
         T[:, 2, 0] = -omega2 * m * d
-        T[:, 2, 1] = -omega2 * (m * d * d + J) + self.rotational_spring - self.own_load * d
+        T[:, 2, 1] = -omega2 * (m * d * d + J) + self.rotational_spring + self.own_load * d
         return T
 
     def _joint(self, size: int, lanes: int) -> Array:

@@ -297,7 +297,7 @@ def _point_energies(point: Point, state: Array, last: bool) -> tuple[Array, Arra
     Y, theta, M, _ = state.T
     turn = theta if last else theta - point.compliance * M
     inertia = point.mass * (Y + point.offset * turn) ** 2 + point.inertia * turn**2
-    rotational = point.rotational_spring - point.own_load * point.offset
+    rotational = point.rotational_spring + point.own_load * point.offset
     return inertia, point.spring * Y**2 + rotational * turn**2 + point.compliance * M**2
 
 

@@ -1,0 +1,186 @@
+"""The images of the documents, made by antinode itself: python docs/make_images.py [NAME ...]."""
+
+import math
+import sys
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+
+mpl.use("Agg")
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+
+from antinode import Beam, Ends, load_case, solve_modes
+from antinode.figures import PALETTE, plot_case, plot_modes, save
+
+ROOT = Path(__file__).resolve().parents[1]
+IMAGES = ROOT / "docs" / "images"
+STARTER = ROOT / "src" / "antinode" / "examples" / "starter" / "case.toml"
+GREY = "#5A5A5A"
+
+
+def starter_modes() -> None:
+    """Draw the starter vehicle in its cavity, its axial force and its modes."""
+    case = load_case(STARTER)
+    save(plot_case(case, solve_modes(case)), IMAGES / "starter_modes.png")
+
+
+def ruler_modes() -> None:
+    """Draw the steel strip of the tutorial, pinned at both ends under 600 N."""
+    beam = Beam.from_stations(
+        [0.0, 1.0], 1.1775, 65.625, 3.15e7, 600.0, ends=Ends("pinned", "pinned"), name="ruler"
+    )
+    save(plot_modes(solve_modes(beam, 4)), IMAGES / "ruler_modes.png")
+
+
+def speed_sweep() -> None:
+    """Draw the first frequency of the starter vehicle over speed, as in the tutorial."""
+    speeds = np.arange(60, 131, 10)
+    figure, axes = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
+    for thrust, colour in zip((50, 100), PALETTE, strict=False):
+        first = []
+        for speed in speeds:
+            case = load_case(
+                STARTER, [f"condition.speed={speed}m/s", f"condition.thrust={thrust}kN"]
+            )
+            first.append(solve_modes(case, 1, families=["bending"]).mode("bending", 1).frequency_hz)
+        axes.plot(speeds, first, "o-", color=colour, label=f"thrust {thrust} kN")
+    axes.set(xlabel="speed [m/s]", ylabel="first bending frequency [Hz]")
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False)
+    figure.savefig(IMAGES / "speed_sweep.png", dpi=160)
+    plt.close(figure)
+
+
+def literal_methods() -> None:
+    """Draw the errors of the transfer matrix determinant, of det S and of the frame."""
+    sys.path.insert(0, str(ROOT))
+    from validation.literal_methods import FUNCTIONS, MODES, relative_errors, uniform
+
+    figure, axes = plt.subplots(figsize=(7.0, 3.8), layout="constrained")
+    modes, floor = np.arange(1, MODES + 1), 5e-17
+    markers = zip(FUNCTIONS.items(), (PALETTE[1], PALETTE[4], PALETTE[0]), "so^", strict=True)
+    for (name, function), colour, marker in markers:
+        error = relative_errors(function, uniform(100))
+        axes.semilogy(
+            modes, np.maximum(error, floor), marker, color=colour, label=name, markersize=4
+        )
+        lost = modes[np.isnan(error)]
+        if len(lost):
+            axes.semilogy(lost, np.full(len(lost), 1.0), "x", color=colour, label=f"{name}: lost")
+    growth = 1e-16 * np.exp((modes + 0.5) * math.pi)
+    axes.semilogy(modes[growth < 3], growth[growth < 3], color=GREY, linewidth=0.8)
+    axes.annotate("1e-16 exp($\\lambda$L)", (7.4, 1e-5), ha="right", fontsize=8, color=GREY)
+    axes.set(
+        xlabel="mode of a uniform free-free beam, 100 segments",
+        ylabel="relative error of the frequency",
+        ylim=(3e-17, 6),
+    )
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False, fontsize=8, loc="center right", bbox_to_anchor=(1.0, 0.21))
+    figure.savefig(IMAGES / "literal_methods.png", dpi=160)
+    plt.close(figure)
+
+
+def conventions() -> None:
+    """Draw the axis, the forces on a vehicle and the positive senses of N, Q and M."""
+    figure, (top, bottom) = plt.subplots(
+        2, 1, figsize=(7.6, 4.8), layout="constrained", height_ratios=(1.25, 1)
+    )
+    for axes in (top, bottom):
+        axes.set_axis_off()
+    _draw_vehicle(top)
+    _draw_slice(bottom)
+    figure.savefig(IMAGES / "conventions.png", dpi=160)
+    plt.close(figure)
+
+
+def _arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float], colour: str) -> None:
+    style = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.6, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", end, start, arrowprops=style)
+
+
+def _text(axes: Axes, at: tuple[float, float], text: str, colour: str, ha: str = "center") -> None:
+    axes.text(*at, text, color=colour, ha=ha, va="center", fontsize=9)
+
+
+def _draw_vehicle(axes: Axes) -> None:
+    blue, red, green = PALETTE[0], PALETTE[1], PALETTE[2]
+    body = np.array([[0, 0.08], [1.5, 0.42], [6, 0.42], [6, -0.42], [1.5, -0.42], [0, -0.08]])
+    axes.fill(*body.T, color="#D5D9DE", zorder=1)
+    axes.plot([0, 0], [-0.22, 0.22], color="#111827", linewidth=3, zorder=2)
+    axes.plot([-1.4, 8.2], [0, 0], color=GREY, linewidth=0.7, linestyle=(0, (6, 3)), zorder=3)
+    _arrow(axes, (7.3, 0), (8.3, 0), GREY)
+    _text(axes, (8.5, 0), "x, aft", GREY, "left")
+    _arrow(axes, (-0.9, 0), (-0.9, 1.2), GREY)
+    _text(axes, (-0.9, 1.4), "Y, up", GREY)
+    _arrow(axes, (-0.75, -0.3), (-0.05, -0.3), red)
+    _text(axes, (-0.85, -0.3), "drag $F_{CX}$, aft", red, "right")
+    _arrow(axes, (0, 0.25), (0, 1.0), blue)
+    _text(axes, (0.12, 1.05), "lift $F_{CY}$, up", blue, "left")
+    _arrow(axes, (7.1, -0.25), (6.05, -0.25), green)
+    _text(axes, (7.2, -0.3), "thrust T, forward", green, "left")
+    _arrow(axes, (5.2, 0.45), (5.2, 1.15), blue)
+    _text(axes, (5.35, 1.1), "lift of a fin or of planing, up", blue, "left")
+    _arrow(axes, (4.7, -0.65), (5.4, -0.65), red)
+    _text(axes, (5.5, -0.68), "their drag, aft", red, "left")
+    _arrow(axes, (2.84, 0), (2.84, -0.95), "#6B7280")
+    _text(axes, (2.95, -0.85), "weight", "#6B7280", "left")
+    turn = {
+        "arrowstyle": "-|>",
+        "connectionstyle": "arc3,rad=-0.45",
+        "color": PALETTE[3],
+        "linewidth": 1.6,
+    }
+    axes.annotate("", (2.0, 0.62), (2.0, -0.62), arrowprops=turn)
+    _text(axes, (1.55, 0.95), "body angle, beta: nose-up", PALETTE[3], "left")
+    axes.set(xlim=(-3.0, 10.2), ylim=(-1.2, 1.6))
+
+
+def _draw_slice(axes: Axes) -> None:
+    blue, red, pink = PALETTE[0], PALETTE[1], PALETTE[3]
+    axes.fill([2.2, 4.4, 4.4, 2.2], [-0.5, -0.5, 0.5, 0.5], color="#D5D9DE")
+    _arrow(axes, (1.0, 0), (2.15, 0), red)
+    _text(axes, (0.9, 0), "N", red, "right")
+    _arrow(axes, (5.6, 0), (4.45, 0), red)
+    _text(axes, (5.7, 0), "N", red, "left")
+    _arrow(axes, (2.1, -0.5), (2.1, 0.6), blue)
+    _text(axes, (1.95, 0.7), "Q", blue)
+    _arrow(axes, (4.5, 0.5), (4.5, -0.6), blue)
+    _text(axes, (4.7, -0.6), "Q", blue)
+    for start, end, rad in (
+        ((1.75, 0.35), (1.75, -0.35), 0.9),
+        ((4.85, 0.35), (4.85, -0.35), -0.9),
+    ):
+        style = {
+            "arrowstyle": "<|-",
+            "connectionstyle": f"arc3,rad={rad}",
+            "color": pink,
+            "linewidth": 1.6,
+        }
+        axes.annotate("", end, start, arrowprops=style)
+    _text(axes, (1.25, 0.4), "M", pink)
+    _text(axes, (5.35, 0.4), "M", pink)
+    x = np.linspace(7.0, 9.6, 60)
+    axes.plot(x, 0.45 * ((x - 8.3) / 1.3) ** 2 - 0.35, color=GREY, linewidth=3)
+    _text(axes, (8.3, 0.35), "M > 0: ends up", pink)
+    _text(axes, (8.3, -0.75), "$M = EI\\,Y''$,  $Q = M' + N\\,Y'$", GREY)
+    _text(axes, (3.3, -0.9), "what the neighbours do to a slice", GREY)
+    axes.set(xlim=(-1.4, 11.6), ylim=(-1.1, 1.0))
+
+
+MAKERS = (starter_modes, ruler_modes, speed_sweep, literal_methods, conventions)
+
+
+def main() -> None:
+    """Make the images that are named, or all."""
+    IMAGES.mkdir(exist_ok=True)
+    wanted = sys.argv[1:]
+    for make in MAKERS:
+        if not wanted or make.__name__ in wanted:
+            make()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,297 @@
+"""The commands of `antinode`: their arguments, their help and what each of them does."""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import App, Parameter
+
+from . import __version__
+from .errors import ComputationError, InputError
+from .examples import EXAMPLES, write_example
+from .options import BucklingFactor, Json, Output, Set, Solver
+from .text import short
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from .beam_file import BeamFile
+    from .case import Case
+    from .result import ModalResult
+
+app = App(
+    name="antinode",
+    version=__version__,
+    help_format="markdown",
+    help="""Natural frequencies and modes of slender vehicles in motion, and of any beam.
+
+Start with **antinode init** and **antinode modes case.toml**, or with **antinode init --beam** and
+**antinode beam beam.toml**.
+
+Input files are TOML. Numbers are SI, angles in radians; a text carries its own unit: "80 mm",
+"10 deg", "50 kN". Tables along the axis may be CSV files. **antinode schema** lists every key.
+""",
+)
+_SOLVER, _OUTPUT = Solver(), Output()
+
+
+@app.command(sort_key=2)
+def modes(
+    case: Path, /, *, set_: Set = (), solver: Solver = _SOLVER, output: Output = _OUTPUT
+) -> None:
+    """Compute frequencies and modes of a vehicle in a condition: the main job.
+
+    From the condition follow the cavity, the forces and the axial force N(x), positive in
+    compression; under it the body vibrates as a free-free beam. Frequencies are in Hz, each with a
+    bound on its error.
+
+    - Example: **antinode modes case.toml**
+    - Example: **antinode modes case.toml --set condition.speed=100m/s --plot modes.png**
+    - Example: **antinode modes case.toml --modes 10 --json**
+
+    Parameters
+    ----------
+    case
+        A case file: vehicle and condition in TOML. 'antinode init' writes one.
+    """
+    _check_output(output)
+    from .case import load_case
+    from .loads_table import condition_dict, loads_summary
+
+    problem = load_case(case, set_)
+    result = _solve(problem, solver)
+    data = result.to_dict()
+    data["condition"], data["loads"] = condition_dict(problem), loads_summary(problem)
+    data["warnings"] = [*problem.loads.warnings, *data["warnings"]]
+    if output.plot:
+        from .figures import plot_case
+
+        _draw(plot_case(problem, result), output.plot)
+    _write_modes(output, data, result)
+    if not output.json:
+        from .printing import console, show_condition, show_modes, show_warnings
+
+        out = console()
+        show_condition(out, problem)
+        show_modes(out, result)
+        show_warnings(out, problem.loads.warnings)
+
+
+@app.command(sort_key=4)
+def beam(
+    file: Path,
+    /,
+    *,
+    set_: Set = (),
+    solver: Solver = _SOLVER,
+    buckling: BucklingFactor = False,
+    output: Output = _OUTPUT,
+) -> None:
+    """Compute frequencies and modes of any beam, with no vehicle at all.
+
+    The file gives mass, stiffness and axial force N (positive in compression) at stations, how the
+    ends are held, and what is attached.
+
+    - Example: **antinode beam beam.toml**
+    - Example: **antinode beam beam.toml --set beam.ends.left=pinned --plot beam.svg**
+    - Example: **antinode beam beam.toml --buckling -o beam.csv**
+
+    Parameters
+    ----------
+    file
+        A beam file in TOML. 'antinode init --beam' writes one.
+    """
+    _check_output(output)
+    from .beam_file import load_beam
+
+    result = _solve(load_beam(file, set_), solver)
+    data, critical = result.to_dict(), None
+    if buckling:
+        from .buckling import buckling as find_factor
+
+        critical = find_factor(result.beam, result.tolerance)
+        data["buckling"] = critical.to_dict() if critical else None
+    if output.plot:
+        from .figures import plot_modes
+
+        _draw(plot_modes(result), output.plot)
+    _write_modes(output, data, result)
+    if not output.json:
+        from .printing import console, show_beam, show_buckling, show_modes
+
+        out = console()
+        show_beam(out, result.beam)
+        if buckling:
+            show_buckling(out, critical)
+        show_modes(out, result)
+
+
+@app.command(sort_key=3)
+def loads(case: Path, /, *, set_: Set = (), output: Output = _OUTPUT) -> None:
+    """Compute the cavity, the forces, the accelerations and N, Q, M along the vehicle.
+
+    Axial force N is positive in compression, shear force Q up on the part ahead, bending moment
+    M = EI Y''. What is outside the range of a correlation is marked.
+
+    - Example: **antinode loads case.toml**
+    - Example: **antinode loads case.toml --set condition.cavitation_number=0.025 -o loads.csv**
+
+    Parameters
+    ----------
+    case
+        A case file: vehicle and condition in TOML. 'antinode init' writes one.
+    """
+    _check_output(output)
+    from .case import load_case
+    from .loads_table import condition_dict, loads_csv, loads_dataset, loads_dict
+
+    problem = load_case(case, set_)
+    data = {**loads_dict(problem), "condition": condition_dict(problem)}
+    if output.plot:
+        from .figures import plot_loads
+
+        _draw(plot_loads(problem), output.plot)
+    if output.file:
+        from .dataset import write_result
+
+        write_result(output.file, data, lambda: loads_csv(problem), lambda: loads_dataset(problem))
+        _say_written(output.file)
+    if output.json:
+        _print_json(data)
+    else:
+        from .printing import console, show_loads
+
+        show_loads(console(), problem)
+
+
+@app.command(sort_key=1)
+def init(
+    folder: Path = Path(),
+    /,
+    *,
+    beam: Annotated[
+        bool, Parameter(help="Write a beam file instead.", negative="", show_default=False)
+    ] = False,
+    example: Annotated[
+        str | None, Parameter(help=f"Write another example: {', '.join(EXAMPLES)}.")
+    ] = None,
+) -> None:
+    """Write a commented, runnable case; never overwrite a file.
+
+    - Example: **antinode init**
+    - Example: **antinode init --beam my_beam**
+    - Example: **antinode init --example tower my_tower**
+
+    Parameters
+    ----------
+    folder
+        Where to write; it is made if it does not exist.
+    """
+    if beam and example not in (None, "beam"):
+        raise InputError(f"--beam and --example {short(example)} contradict: give one of them")
+    written, command = write_example(example or ("beam" if beam else "starter"), folder)
+    print("wrote " + ", ".join(str(path) for path in written))
+    print(f"next: {command}")
+
+
+@app.command(sort_key=5)
+def schema(of: str = "case", /) -> None:
+    """Print the JSON schema of an input file, every key with its unit and range.
+
+    - Example: **antinode schema case**
+    - Example: **antinode schema beam > beam.schema.json**
+
+    Parameters
+    ----------
+    of
+        case or beam.
+    """
+    from .schema import input_schema
+
+    _print_json(input_schema(of))
+
+
+@app.command(sort_key=6)
+def verify(*, json: Json = False) -> None:
+    """Check this installation against closed forms, in seconds.
+
+    - Example: **antinode verify**
+    """
+    from .verify import ALLOWED, run_checks
+
+    checks = run_checks()
+    failed = sum(not check.passed for check in checks)
+    if json:
+        rows = [check.to_dict() for check in checks]
+        _print_json({"schema_version": 1, "allowed": ALLOWED, "checks": rows})
+    else:
+        from .printing import show_checks
+
+        show_checks(checks)
+    if failed:
+        raise ComputationError(f"{failed} of {len(checks)} checks failed; reinstall antinode")
+
+
+def _solve(problem: Case | BeamFile, solver: Solver) -> ModalResult:
+    """Solve a problem, by the settings of its file but for those given on the command line."""
+    from .beam_file import Solve
+    from .explain import validate
+    from .modes import solve_modes
+
+    given = {"modes": solver.modes, "tolerance": solver.tolerance}
+    chosen = problem.solve.model_dump() | {k: v for k, v in given.items() if v is not None}
+    settings = validate(Solve, chosen, "command line")
+    result = solve_modes(
+        problem,
+        settings.modes,
+        tolerance=settings.tolerance,
+        method=solver.method,
+        normalisation=solver.shapes,
+        unloaded=True,
+    )
+    if not all(math.isfinite(mode.omega2) for mode in result.modes):
+        raise ComputationError("a frequency is no finite number; check the units of the input")
+    return result
+
+
+def _check_output(output: Output) -> None:
+    """Refuse what cannot be written before any work is done."""
+    if output.file:
+        from .dataset import ENDINGS, check_output
+
+        check_output(output.file, ENDINGS)
+    if output.plot:
+        from .figures import check_plot
+
+        check_plot(output.plot)
+
+
+def _draw(figure: Figure, path: Path) -> None:
+    from .figures import save
+
+    save(figure, path)
+    _say_written(path)
+
+
+def _write_modes(output: Output, data: dict[str, Any], result: ModalResult) -> None:
+    """Write modes to the file, and as JSON to stdout, as asked for."""
+    if output.file:
+        from .dataset import modal_table, write_result
+
+        write_result(output.file, data, lambda: modal_table(result), result.to_dataset)
+        _say_written(output.file)
+    if output.json:
+        _print_json(data)
+
+
+def _print_json(data: dict[str, Any]) -> None:
+    from .dataset import to_json
+
+    print(to_json(data))
+
+
+def _say_written(path: Path) -> None:
+    print(f"wrote {path}", file=sys.stderr)

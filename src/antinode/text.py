@@ -1,0 +1,41 @@
+"""Words for messages: values on one short line, and the nearest of several names."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Sequence
+from reprlib import Repr
+
+MOST_CHARACTERS = 60
+
+_repr = Repr()
+_repr.maxlevel = 3
+_repr.maxstring = _repr.maxother = _repr.maxlong = 200
+
+
+def short(value: object, most: int = MOST_CHARACTERS) -> str:
+    """Write a value on one line, as a file has it, with at most so many characters."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f"'{one_line(value[:1000], most)}'"
+    if isinstance(value, float | dict | list | tuple):
+        return one_line(_repr.repr(value), most)
+    try:
+        return one_line(str(value), most)
+    except ValueError:
+        return "a number of thousands of digits"
+
+
+def one_line(text: str, most: int) -> str:
+    """Return a text without line breaks and control characters, shortened in its middle."""
+    text = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    if len(text) <= most:
+        return text
+    return f"{text[: most - most // 4 - 3]}...{text[len(text) - most // 4 :]}"
+
+
+def nearest(name: str, allowed: Sequence[str]) -> str:
+    """Suggest the allowed name that is nearest to an unknown one, or list them all."""
+    close = difflib.get_close_matches(name[:MOST_CHARACTERS], allowed, n=1)
+    return f"did you mean {close[0]}?" if close else f"allowed are {', '.join(allowed)}"
