@@ -93,12 +93,12 @@ def _read_text(path: Path, most: int, what: str) -> str:
 
 def _similar_file(path: Path) -> str:
     try:
-        names = [p.name for p in path.parent.iterdir() if p.suffix == path.suffix][:500]
+        stems = [p.stem for p in path.parent.iterdir() if p.suffix == path.suffix][:500]
     except OSError:
         return f"; the folder {path.parent} does not exist either: check the path"
-    close = difflib.get_close_matches(path.name, names, n=1)
+    close = difflib.get_close_matches(path.stem, stems, n=1)
     if close:
-        return f"; did you mean {path.parent / close[0]}?"
+        return f"; did you mean {path.with_name(close[0] + path.suffix)}?"
     return "; write one with 'antinode init'" if path.suffix == ".toml" else "; check the path"
 
 

@@ -21,11 +21,13 @@ _COLUMNS = (
     ("N", "N", "axial force, compression positive"),
     ("Q", "N", "static shear force"),
     ("M", "N m", "static bending moment, EI Y''"),
+    ("u_Y", "m", "static lateral deflection, up, relative to the mean axis"),
+    ("u_X", "m", "static axial displacement, aft, relative to the nose"),
 )
 
 
 def internal_forces(case: Case, points: int = 201) -> dict[str, np.ndarray]:
-    """Return N, Q, M along the body, every jump with both of its sides.
+    """Return N, Q, M and the static displacements along the body, jumps with both sides.
 
     Parameters
     ----------
@@ -36,8 +38,11 @@ def internal_forces(case: Case, points: int = 201) -> dict[str, np.ndarray]:
     Returns
     -------
     dict
-        Arrays ``x`` [m], ``N`` [N], ``Q`` [N], ``M`` [N m] of equal length.
+        Arrays ``x`` [m], ``N`` [N], ``Q`` [N], ``M`` [N m], ``u_Y`` and ``u_X`` [m] of equal
+        length; Q and M are those of the straight body.
     """
+    from .statics import static_shape
+
     loads = case.loads
     x = np.unique(np.concatenate([np.linspace(0, case.vehicle.length, points), loads.breakpoints]))
     sides = [(loads.axial_force(x, side), loads.shear_force(x, side)) for side in ("left", "right")]
@@ -48,8 +53,10 @@ def internal_forces(case: Case, points: int = 201) -> dict[str, np.ndarray]:
     def both(left: np.ndarray, right: np.ndarray) -> np.ndarray:
         return np.asarray(np.stack([left, right], axis=1).ravel()[keep])
 
-    M = loads.bending_moment(x)
-    return {"x": both(x, x), "N": both(N0, N1), "Q": both(Q0, Q1), "M": both(M, M)}
+    M, shape = loads.bending_moment(x), static_shape(case)
+    u_Y, u_X = (np.interp(x, shape.x, u) for u in (shape.lateral, shape.axial))
+    smooth = {name: both(v, v) for name, v in (("x", x), ("M", M), ("u_Y", u_Y), ("u_X", u_X))}
+    return {**smooth, "N": both(N0, N1), "Q": both(Q0, Q1)}
 
 
 def condition_dict(case: Case) -> dict[str, Any]:

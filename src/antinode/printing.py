@@ -208,13 +208,18 @@ def _forces_table(case: Case) -> Table:
 
 
 def _internal_table(case: Case) -> Table:
+    from .statics import static_shape
+
     loads, x = case.loads, np.linspace(0, case.vehicle.length, 9)
-    table = _table("x [m]", "N [kN]", "Q [kN]", "M [kN m]")
+    shape = static_shape(case)
+    table = _table("x [m]", "N [kN]", "Q [kN]", "M [kN m]", "deflection [mm]", "axial [mm]")
     rows = zip(
         x,
         loads.axial_force(x) / 1e3,
         loads.shear_force(x) / 1e3,
         loads.bending_moment(x) / 1e3,
+        np.interp(x, shape.x, shape.lateral) * 1e3,
+        np.interp(x, shape.x, shape.axial) * 1e3,
         strict=True,
     )
     for position, *forces in rows:
