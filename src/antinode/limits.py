@@ -16,7 +16,7 @@ SIZES = 1e-30, 1e30
 """Smallest and largest mass per length [kg/m], stiffness [N m^2, N], force [N]."""
 MOST_RATIO = 1e12
 """Largest over smallest value of a property along the beam."""
-MOST_BUCKLED = 30.0
+MOST_BUCKLED = 12.0
 """Modes that the compression may make diverge, about."""
 MOST_TENSION = 1e7
 """Largest tension times length squared over bending stiffness."""

@@ -31,6 +31,8 @@ _MOST_SEGMENTS = 100_000
 _MOST_WORK = 250_000  # segments times modes, some seconds
 _LEAST_PER_MODE = 8  # segments that are never too many
 _MODES_PER_REFINEMENT = 8  # that the coarsest steps are meant for
+_MOST_DOUBTS = 5  # representations after which a strange order of convergence is accepted
+_SAFETY = 2.5  # estimate over likely error
 _ACCIDENT = 1 / 1024  # share of the last change but one that an estimate keeps
 _NEAR_ZERO = 1e-9  # of the chain's own omega^2
 _MODEL_LIMIT = 0.02
@@ -153,8 +155,7 @@ def _solve_family(
     """Refine until the estimated error of every wanted frequency is within the tolerance.
 
     Two representations give an estimate. Where m or EI vary, the coarsest may be too coarse for
-    the error to fall as the fourth power of the steps: a third one must confirm that it does, or a
-    fourth is made.
+    the error to fall as the fourth power of the steps: further ones must confirm that it does.
     """
     wanted = modes + len(rigid_modes(beam, family))
     zeros = exact_zeros(beam, family)
@@ -173,7 +174,7 @@ def _solve_family(
         levels.append(_omega2(eigenvalues))
         error = _discretisation_error(levels[-3:])
         relative = _relative_error(chain, levels[-1], error)
-        trusted = smooth or len(levels) > 3 or _order_is_four(levels, relative)
+        trusted = smooth or len(levels) > _MOST_DOUBTS or _order_is_four(levels, relative)
         if trusted and np.all(relative <= tolerance):
             break
         if 2 * len(chain.length) > most or _is_noise(error, before, relative):
@@ -210,15 +211,15 @@ def _omega2(eigenvalues: list[Eigenvalue]) -> Array:
 def _discretisation_error(levels: list[Array]) -> Array:
     """Estimate the error of the last omega^2 from solutions with steps halved each time.
 
-    When the error falls by 16 it is 1/15 of the last change; twice that is reported, and more where
-    the changes fall more slowly or faster, as they do before the fourth order is reached. Where two
-    solutions agree by accident, a share of the change before takes over.
+    When the error falls by 16 it is 1/15 of the last change. A multiple of that is reported, a
+    larger one where the changes fall more slowly or faster, as they do before the fourth order is
+    reached. Where two solutions agree by accident, a share of the change before takes over.
     """
     changes, fall = _changes(levels)
-    error = changes[-1] * (2 / 15)
+    error = changes[-1] * (_SAFETY / 15)
     if len(changes) > 1:
         fall = np.clip(np.minimum(fall, 256 / np.maximum(fall, 1.0)), 3.0, 16.0)
-        error = np.maximum(2 * changes[-1] / (fall - 1), changes[-2] * _ACCIDENT)
+        error = np.maximum(_SAFETY * changes[-1] / (fall - 1), changes[-2] * _ACCIDENT)
     return np.append(error, np.full(len(levels[-1]) - len(error), np.max(error)))
 
 
@@ -234,7 +235,8 @@ def _order_is_four(levels: list[Array], relative: Array) -> bool:
     if len(levels) < 3:
         return False
     _, fall = _changes(levels[-3:])
-    return bool(np.all((np.abs(np.log(fall / 16)) < np.log(4)) | (relative[: len(fall)] < 1e-10)))
+    near = (fall > 16 / 2.5) & (fall < 16 * 2.5)
+    return bool(np.all(near | (relative[: len(fall)] < 1e-10)))
 
 
 def _relative_error(chain: Chain, omega2: Array, error: Array) -> Array:

@@ -3,8 +3,9 @@
 import math
 
 import pytest
-from antinode.units import Angle, Force, Frozen, Length, Number, to_si, unit_factor
 from pydantic import Field, ValidationError
+
+from antinode.units import Angle, Force, Frozen, Length, Number, to_si, unit_factor
 
 
 class Sample(Frozen):
@@ -74,7 +75,7 @@ def test_converts(text, unit, value):
     ],
 )
 def test_refuses(value, unit, words):
-    with pytest.raises(ValueError, match=".") as refusal:
+    with pytest.raises(ValueError, match=r".") as refusal:
         to_si(value, unit)
     assert words in str(refusal.value)
 
@@ -114,6 +115,7 @@ def test_the_schema_allows_a_number_and_a_text_and_tells_the_unit():
     assert schema["unit"] == "m"
     number, text = schema["anyOf"]
     assert number["type"] == "number"
+    assert number["exclusiveMinimum"] == 0
     assert text["type"] == "string"
     assert "[m]" in number["description"]
     assert "'1 m'" in text["description"]

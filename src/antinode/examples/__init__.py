@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from pathlib import Path
+from shlex import quote
 
 from antinode.errors import InputError
 
@@ -57,7 +58,7 @@ def write_example(name: str, folder: Path) -> tuple[list[Path], str]:
             f"the folder '{str(folder)[:200]}' cannot be written ({reason}); name another folder"
         ) from error
     prefix = "" if folder == Path() else f"{folder.as_posix()}/"
-    return list(texts), EXAMPLES[name].format(folder=prefix)
+    return list(texts), EXAMPLES[name].format(folder=quote(prefix) if prefix else "")
 
 
 def _texts(name: str) -> dict[str, str]:
