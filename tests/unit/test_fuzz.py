@@ -99,7 +99,9 @@ def changed(draw, names):
     """The tables of an example after one to three changes."""
     tree = copy.deepcopy(TREES[draw(st.sampled_from(names))])
     for _ in range(draw(st.integers(1, 3))):
-        path = draw(st.sampled_from(list(places(tree)) or [("x",)]))
+        if not tree:
+            break
+        path = draw(st.sampled_from(list(places(tree))))
         here = tree
         for key in path[:-1]:
             here = here[key]
