@@ -235,6 +235,28 @@ def verify(*, json: Json = False) -> None:
         raise ComputationError(f"{failed} of {len(checks)} checks failed; reinstall antinode")
 
 
+@app.command(sort_key=7)
+def reproduce(*, json: Json = False) -> None:
+    """Compare a reconstructed vehicle with the tables of the paper behind antinode.
+
+    The data of the paper's own vehicle are lost. **antinode init --example paper** writes the one
+    that stands in for it. Exit code 1 if a difference is beyond the bounds that ship with it.
+
+    - Example: **antinode reproduce**
+    """
+    from .paper.comparison import check_bounds, compare
+
+    comparison = compare()
+    if json:
+        _print_json(comparison.to_dict())
+    else:
+        from .paper.terminal import show_comparison
+        from .printing import console
+
+        show_comparison(console(), comparison)
+    check_bounds(comparison)
+
+
 def _solve(problem: Case | BeamFile, solver: Solver) -> ModalResult:
     """Solve a problem, by the settings of its file but for those given on the command line."""
     from .beam_file import Solve

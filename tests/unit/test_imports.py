@@ -44,6 +44,7 @@ MODES = ("result", "modes", "buckling")
 READING = ("explain", "override", "files", "limits")
 INPUTS = ("attachment_tables", "beam_file", "case", "statics")
 OUTPUTS = ("dataset", "loads_table", "figures", "verify", "printing", "schema")
+PAPER = ("paper", "paper.tables", "paper.comparison", "paper.terminal")
 COMMANDS = ("examples", "options", "commands", "cli")
 
 MAY_IMPORT = {
@@ -55,6 +56,7 @@ MAY_IMPORT = {
     READING: (WORDS, BEAM),
     INPUTS: (WORDS, PHYSICS, RICCATI, BEAM, READING),
     OUTPUTS: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS),
+    PAPER: (WORDS, INPUTS, MODES, OUTPUTS),
     COMMANDS: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),
 }
 """What the modules of a group import, beside those that stand before them in the group."""

@@ -10,6 +10,7 @@ from antinode.errors import InputError
 
 EXAMPLES = {
     "starter": "antinode modes {folder}case.toml",
+    "paper": "antinode modes {folder}case.toml",
     "beam": "antinode beam {folder}beam.toml",
     "tower": "antinode beam {folder}beam.toml",
     "rocket": "antinode beam {folder}beam.toml",
