@@ -34,6 +34,8 @@ _MODES_PER_REFINEMENT = 8  # that the coarsest steps are meant for
 _MOST_DOUBTS = 5  # representations after which a strange order of convergence is accepted
 _SAFETY = 2.5  # estimate over likely error
 _ACCIDENT = 1 / 1024  # share of the last change but one that an estimate keeps
+_LIKELY = 1e-9  # least relative distance of samples from where an eigenvalue is expected
+_BESIDE = np.array([-4.0, -1.0, 1.0, 4.0])
 _NEAR_ZERO = 1e-9  # of the chain's own omega^2
 _MODEL_LIMIT = 0.02
 
@@ -170,7 +172,7 @@ def _solve_family(
     while np.any(beam.varies(family)):
         refinement *= 2
         chain, before = beam.chain(family, refinement), error
-        eigenvalues = _certified(chain, wanted, zeros)
+        eigenvalues = _certified(chain, wanted, zeros, _expected(levels))
         levels.append(_omega2(eigenvalues))
         error = _discretisation_error(levels[-3:])
         relative = _relative_error(chain, levels[-1], error)
@@ -190,10 +192,21 @@ def _solve_family(
     return _Solved(chain, eigenvalues, error, warnings)
 
 
-def _certified(chain: Chain, wanted: int, zeros: int) -> list[Eigenvalue]:
+def _expected(levels: list[Array]) -> Array | None:
+    """Return places beside the next eigenvalues, if the error keeps falling as the fourth power."""
+    if len(levels) < 2 or len(levels[-1]) != len(levels[-2]):
+        return None
+    last, change = levels[-1], levels[-1] - levels[-2]
+    spread = np.maximum(np.abs(change) / 64, _LIKELY * np.abs(last))
+    return np.unique(last + change / 16 + spread * _BESIDE[:, None])
+
+
+def _certified(
+    chain: Chain, wanted: int, zeros: int, expected: Array | None = None
+) -> list[Eigenvalue]:
     width = 1e-10 if len(chain.length) <= 1000 else 2e-10
     try:
-        found = find_eigenvalues(chain, wanted, zeros=zeros, width=width)
+        found = find_eigenvalues(chain, wanted, zeros=zeros, width=width, expected=expected)
     except (CountingError, FloatingPointError) as error:
         raise ComputationError(
             f"the {chain.family} eigenvalues could not be certified: {error}; "
@@ -307,7 +320,7 @@ def _modes_of(
         one = energies.of_mode(column, float(scale[column]))
         name, number = names[k]
         rows.append(_mode(beam, chain, solved, k, name, number, at_grid[:, column], one))
-    return rows, Solution(chain, omega2, states)
+    return _with_joint_brackets(rows), Solution(chain, omega2, states)
 
 
 def _names(beam: Beam, family: Family, eigenvalues: list[Eigenvalue]) -> list[tuple[str, int]]:
@@ -416,9 +429,11 @@ def _mode(
 ) -> Mode:
     value, family = solved.eigenvalues[k], chain.family
     mass, stiffness, size = (float(v[0]) for v in (energy.mass, energy.stiffness, energy.size))
-    half = max(value.omega2 - value.bracket[0], value.bracket[1] - value.omega2)
     exact = value.omega2 == 0.0 and number == 0
-    error = 0.0 if exact else half + _ROUNDING * size / mass + float(solved.discretisation[k])
+    rounding = 0.0 if exact else _ROUNDING * size / mass
+    low, high = value.bracket[0] - rounding, value.bracket[1] + rounding
+    half = max(value.omega2 - low, high - value.omega2)
+    error = 0.0 if exact else half + float(solved.discretisation[k])
     quotient = stiffness / mass
     reference = max(abs(value.omega2), 1e-9 * omega2_scale(chain))
     kind: Kind = "divergent" if value.omega2 < 0 else "elastic" if number else "rigid"
@@ -428,7 +443,7 @@ def _mode(
         name=name,
         kind=kind,
         omega2=value.omega2,
-        bracket_omega2=value.bracket,
+        bracket_omega2=(low, high),
         counts=value.counts,
         error_omega2=error,
         modal_mass=mass,
@@ -436,6 +451,24 @@ def _mode(
         model_error=_model_error(beam, chain, value.omega2, energy) if number else None,
         states=shape,
     )
+
+
+def _with_joint_brackets(modes: list[Mode]) -> list[Mode]:
+    """Let modes share a bracket where rounding cannot part them."""
+    groups: list[list[Mode]] = []
+    for mode in modes:
+        if groups and mode.bracket_omega2[0] <= max(m.bracket_omega2[1] for m in groups[-1]):
+            groups[-1].append(mode)
+        else:
+            groups.append([mode])
+    return [mode for group in groups for mode in _sharing(group)]
+
+
+def _sharing(group: list[Mode]) -> list[Mode]:
+    low, high = zip(*(mode.bracket_omega2 for mode in group), strict=True)
+    below, above = zip(*(mode.counts for mode in group), strict=True)
+    bracket, counts = (min(low), max(high)), (min(below), max(above))
+    return [replace(mode, bracket_omega2=bracket, counts=counts) for mode in group]
 
 
 def _model_error(beam: Beam, chain: Chain, omega2: float, energy: Energies) -> float | None:

@@ -46,7 +46,7 @@ def value(key, new):
 WRONG_VALUES = {
     "zero": (value("diameter", "0"), ["vehicle.cavitator.diameter is 0", "greater than 0"]),
     "negative": (value("diameter", "'-80 mm'"), ["diameter is '-80 mm'", "greater than 0"]),
-    "nan": (value("diameter", "nan"), ["diameter is nan", "finite number"]),
+    "nan": (value("diameter", "nan"), ["diameter is nan", "it must be a finite number"]),
     "inf": (value("diameter", "inf"), ["diameter is inf", "finite number"]),
     "1e400": (value("diameter", "1e400"), ["diameter is inf", "finite number"]),
     "10**400": (value("diameter", "1" + "0" * 400), ["diameter is 1000", "below 1e308"]),
@@ -276,7 +276,7 @@ class TestInit:
     def test_removes_what_it_wrote_when_a_later_file_fails(self, tmp_path, monkeypatch):
         os.mkdir(tmp_path / "x")
         monkeypatch.setattr(
-            "antinode.examples._texts", lambda name: {"a.toml": "a = 1", "b\udc80.toml" * 90: "b"}
+            "antinode.examples._texts", lambda name: {"a.toml": "a = 1", "no/b.toml": "b = 1"}
         )
         refused(run("init", tmp_path / "x"), "cannot be written")
         assert contents(tmp_path) == {}
@@ -593,10 +593,11 @@ class TestTerminal:
         assert b"bending 1" in done.stdout
 
     def test_a_reader_that_goes_away(self, mast):
-        command = [*python("schema", "case"), "|", "head", "-1"]
-        line = " ".join(f"'{part}'" if part not in "|" else part for part in command)
-        done = subprocess.run(line, shell=True, capture_output=True, text=True, check=False)
-        assert (done.stdout, done.stderr) == ("{\n", "")
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+        with subprocess.Popen(python("schema", "case"), **pipes) as process:
+            process.stdout.close()
+            assert process.stderr.read() == ""
+        assert process.returncode == 0
 
     def test_a_full_disk(self, mast):
         if not os.path.exists("/dev/full"):

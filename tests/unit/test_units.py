@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from pydantic import Field, ValidationError
+from pydantic import ConfigDict, Field, ValidationError
 
 from antinode.units import Angle, Force, Frozen, Length, Number, to_si, unit_factor
 
@@ -92,6 +92,18 @@ def test_powers_of_powers_are_refused_at_once(power):
 def test_a_model_refuses_what_is_not_finite(value):
     with pytest.raises(ValidationError, match="finite number"):
         Sample(length=value)
+
+
+class Support(Frozen):
+    model_config = ConfigDict(allow_inf_nan=True)
+    stiffness: Force = 0.0
+
+
+def test_where_infinity_is_allowed_nan_is_not():
+    assert Support(stiffness="inf").stiffness == math.inf
+    for wrong in (math.nan, "nan", "nan N"):
+        with pytest.raises(ValidationError, match="finite number"):
+            Support(stiffness=wrong)
 
 
 def test_a_model_holds_si_floats():

@@ -77,7 +77,12 @@ class Samples:
 
 
 def find_eigenvalues(
-    chain: Chain, wanted: int, *, zeros: int = 0, width: float = 1e-10
+    chain: Chain,
+    wanted: int,
+    *,
+    zeros: int = 0,
+    width: float = 1e-10,
+    expected: Array | None = None,
 ) -> list[Eigenvalue]:
     """Return the lowest eigenvalues of a chain, and every other one below or at zero.
 
@@ -90,6 +95,8 @@ def find_eigenvalues(
         How many eigenvalues are exactly zero by the supports (rigid modes that no force holds).
     width : float
         Relative width of the brackets in omega^2.
+    expected : array, optional
+        Places beside which the eigenvalues probably lie [rad^2/s^2]; they only save time.
 
     Returns
     -------
@@ -102,7 +109,7 @@ def find_eigenvalues(
         If brackets cannot be found.
     """
     samples = Samples(chain)
-    samples.add(_first_guesses(chain, wanted))
+    samples.add(_first_guesses(chain, wanted) if expected is None else expected)
     _extend(samples, wanted)
     floor = _isolate_zero(samples, zeros)
     last = max(wanted, int(samples.count[np.searchsorted(samples.omega2, floor)]))

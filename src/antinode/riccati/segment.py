@@ -133,7 +133,10 @@ def longitudinal_transfer(h: Array, axial_stiffness: Array, inertia: Array) -> A
     c = inertia / axial_stiffness
     h, z = np.broadcast_arrays(h, -c * h * h)
     coefficients = _inverse_factorials(_terms_needed(math.sqrt(float(np.max(np.abs(z))))))[2:]
-    powers = np.stack([z**k for k in range(coefficients.shape[1])])
+    powers = np.empty((coefficients.shape[1], *z.shape))
+    powers[0] = 1.0
+    for k in range(1, len(powers)):
+        powers[k] = powers[k - 1] * z
     sine, cosine = (coefficients @ powers.reshape(len(powers), -1)).reshape(2, *h.shape)
     U = np.empty((*h.shape, 2, 2))
     U[..., 0, 0] = U[..., 1, 1] = cosine
