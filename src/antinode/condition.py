@@ -78,6 +78,12 @@ class OperatingCondition(Frozen):
     burn_fraction: Annotated[Number, Field(ge=0, le=1)] = Field(
         default=0.0, description="0 first mass state, 1 last [-]"
     )
+    extra_drag: Force | None = Field(
+        default=None, description="drag that no formula gives, such as a measured one, aft [N]"
+    )
+    extra_drag_position: Annotated[Length, Field(ge=0)] | None = Field(
+        default=None, description="x where it acts [m]; by default fin_position, or the tail"
+    )
 
     @model_validator(mode="after")
     def _check_cavitation(self) -> Self:

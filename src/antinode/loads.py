@@ -426,6 +426,35 @@ def compute_loads(
     """
     water, model = water or Water(), model or Model()
     state = resolve_cavitation(condition, water)
+    return _assembled(
+        vehicle, condition, water, state, *_hydrodynamics(vehicle, condition, water, model, state)
+    )
+
+
+def point_forces(
+    vehicle: Vehicle, condition: OperatingCondition, water: Water, model: Model
+) -> tuple[PointForce, ...]:
+    """Return the forces on the body but the thrust, cavitator first: `Loads.forces` alone."""
+    state = resolve_cavitation(condition, water)
+    return _hydrodynamics(vehicle, condition, water, model, state).forces
+
+
+class _Hydrodynamics(NamedTuple):
+    """The cavity and what acts on the body."""
+
+    cavity: Cavity
+    fins: tuple[FinLoad, ...]
+    tail: Planing
+    forces: tuple[PointForce, ...]
+
+
+def _hydrodynamics(
+    vehicle: Vehicle,
+    condition: OperatingCondition,
+    water: Water,
+    model: Model,
+    state: Cavitation,
+) -> _Hydrodynamics:
     hole = _cavity(vehicle, condition, water, model, state.sigma)
     fin_loads = tuple(
         _fin_load(vehicle, fin, number, condition, water.density, hole)
@@ -433,7 +462,19 @@ def compute_loads(
     )
     tail = _planing(vehicle, hole, water, condition.speed)
     forces = _forces(vehicle, _disk_force(hole, water, condition.speed), fin_loads, tail)
-    return _assembled(vehicle, condition, water, state, hole, fin_loads, tail, forces)
+    return _Hydrodynamics(hole, fin_loads, tail, (*forces, *_extra_drag(vehicle, condition)))
+
+
+def _extra_drag(vehicle: Vehicle, condition: OperatingCondition) -> Iterator[PointForce]:
+    """Yield the drag that the condition itself gives, if it does."""
+    if condition.extra_drag is None:
+        return
+    places = (condition.extra_drag_position, condition.fin_position, vehicle.length)
+    x = next(place for place in places if place is not None)
+    if x > vehicle.length:
+        say = f"must lie on the body, within 0 and {vehicle.length:g} m: correct it"
+        raise InputError(f"condition.extra_drag_position: received {x:g} m; it {say}")
+    yield PointForce("extra drag", _snapped(x, vehicle.stations.x), condition.extra_drag, 0.0)
 
 
 def _assembled(

@@ -69,6 +69,8 @@ def condition_dict(case: Case) -> dict[str, Any]:
         "body_angle": "rad",
         "fin_position": "m",
         "thrust": "N",
+        "extra_drag": "N",
+        "extra_drag_position": "m",
     }
     values = case.condition.model_dump()
     named = {f"{key}_{units[key]}" if key in units else key: v for key, v in values.items()}

@@ -272,6 +272,13 @@ class MassDistribution:
         inside = (middle > self.x[0]) & (middle < self.x[-1])
         return np.where(inside[:, None], np.stack(sides, axis=1), 0.0)
 
+    def at(self, x: Array) -> Array:
+        """Return the mass per length at `x` [kg/m]; aft of the step where it jumps."""
+        k = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, len(self.ends) - 1)
+        a, b = self.ends[k].T
+        t = (x - self.x[k]) / (self.x[k + 1] - self.x[k])
+        return np.asarray(a * (b / a) ** t if self.interpolation == "log" else a + (b - a) * t)
+
     def moments(self, x: ArrayLike) -> Array:
         """Return the integrals of m, m x and m x^2 from the nose to `x`.
 
