@@ -18,6 +18,9 @@ and eliminating them would take at most B^T G^-1 B / rho off the matrix that is 
 coupling to it. Taking that off gives a count that is never too low. Both hold for every degree with
 rho > 0; where they agree the count is proven but for the rounding of 60-digit arithmetic.
 
+What sits at a node (masses, springs, supports, joints: `Node`) adds its energy to the nodal matrix;
+a joint splits the slope of its node in two. The bubbles vanish at nodes, so that both bounds stand.
+
 Method 2 (`chain_root`): exact solutions of each segment by power series, in enough digits that
 their growth does not matter. Independent of a double-precision recursion by its precision only.
 
@@ -25,7 +28,7 @@ Method 3: closed forms of uniform beams and bars (`uniform_beam_roots`, `uniform
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
@@ -52,6 +55,32 @@ class _NearlySingularError(ArithmeticError):
 # --- the problem -----------------------------------------------------------------------------
 
 
+class Node(NamedTuple):
+    """What sits at the node behind segment `at` (0: the left end); a joint stands behind the rest.
+
+    A mass [kg] whose centre lies `offset` [m] to the right and whose inertia about it is `inertia`
+    [kg m^2]; springs to ground [N/m, N m/rad]; the joint's compliance [rad/(N m)], for bars [m/N];
+    held displacements: 0 for Y (bars: X), 1 for the slope.
+    """
+
+    at: int
+    mass: float = 0.0
+    offset: float = 0.0
+    inertia: float = 0.0
+    spring: float = 0.0
+    rotational_spring: float = 0.0
+    compliance: float = 0.0
+    holds: tuple = ()
+
+    def energy(self, omega2, order):
+        """Upper rows of its stiffness less omega^2 times its mass matrix."""
+        m, d, J, k, kr = map(_number, self[1:6])
+        own = k - omega2 * m
+        if order == 1:
+            return [[own]]
+        return [[own, -omega2 * m * d], [kr - omega2 * (m * d * d + J)]]
+
+
 @dataclass(frozen=True)
 class BeamChain:
     """Uniform bending segments of length h [m], EI [N m^2], m [kg/m], N [N] from left to right."""
@@ -62,6 +91,7 @@ class BeamChain:
     N: tuple
     left: str = "free"
     right: str = "free"
+    nodes: tuple = ()
 
     order = 2  # of the derivative in the stiffness, and number of unknowns at a node
 
@@ -71,9 +101,7 @@ class BeamChain:
 
     def scaled(self, load):
         """The same chain with all its axial forces times `load`."""
-        return BeamChain(
-            self.h, self.EI, self.m, tuple(load * n for n in self.N), self.left, self.right
-        )
+        return replace(self, N=tuple(load * n for n in self.N))
 
 
 @dataclass(frozen=True)
@@ -85,6 +113,7 @@ class BarChain:
     m: tuple
     left: str = "free"
     right: str = "free"
+    nodes: tuple = ()
 
     order = 1
 
@@ -337,21 +366,51 @@ def _bar_blocks(even, odd, scale, half):
     return [[scale * (e + o)]], [[scale * (e - o)]], [[scale * (e + o)]]
 
 
-def _march(chain, mesh, elements, digits):
+def _march(chain, mesh, elements, omega2, digits):
     """LDL^T of the nodal matrix from left to right: (negative pivots, determinant)."""
     tally, order = _Tally(digits), chain.order
-    held = HELD[chain.left]
     state = [[mpfr(0)] * (order - i) for i in range(order)]
-    for (pieces, _), element in zip(mesh, elements, strict=True):
+    state, held = _pass_node(state, chain, 0, omega2, tally)
+    for k, ((pieces, _), element) in enumerate(zip(mesh, elements, strict=True), start=1):
         for _ in range(pieces):
             tally.negative += element.negative
             tally.determinant *= element.determinant
             state = _pass_element(state, element, held, tally)
             held = ()
-    kept = [i for i in range(order) if i not in HELD[chain.right]]
+        state, held = _pass_node(state, chain, k, omega2, tally)
+    kept = [i for i in range(order) if i not in held]
     rows = [[state[i][j - i] for j in kept if j >= i] for i in kept]
     tally.eliminate(rows, [abs(element.far[i][0]) for i in kept])
     return tally.negative, tally.determinant
+
+
+def _pass_node(state, chain, k, omega2, tally):
+    """Add what sits at a node, and tell which of its displacements are held."""
+    ends = {0: chain.left, len(chain.h): chain.right}
+    held, compliance = {*HELD[ends.get(k, "free")]}, mpfr(0)
+    for node in (node for node in chain.nodes if node.at == k):
+        held |= {*node.holds}
+        compliance += _number(node.compliance)
+        added = node.energy(omega2, chain.order)
+        pairs = zip(state, added, strict=True)
+        state = [[a + b for a, b in zip(*rows, strict=True)] for rows in pairs]
+    if compliance:
+        state = _pass_joint(state, compliance, chain.order - 1 in held, tally)
+        held -= {chain.order - 1}
+    return state, tuple(held)
+
+
+def _pass_joint(state, compliance, held, tally):
+    """Eliminate the slope (bar: the displacement) left of a joint, if it is not held."""
+    stiff, own = 1 / compliance, state[-1][0]
+    if held:
+        return [*([[state[0][0], mpfr(0)]] if len(state) == 2 else []), [stiff]]
+    rows = [[own + stiff, -stiff], [stiff]]
+    if len(state) == 2:
+        (Y, mixed), _ = state
+        rows = [[own + stiff, mixed, -stiff], [Y, mpfr(0)], [stiff]]
+    tally.eliminate(rows, [abs(own) + stiff])
+    return rows[1:]
 
 
 def _pass_element(state, element, held, tally):
@@ -406,7 +465,7 @@ def _inertia_once(chain, omega2, mesh, upper, digits):
         if key not in known:
             known[key] = _element(segment, pieces, degree, omega2, chain.order, digits, upper)
         elements.append(known[key])
-    return _march(chain, mesh, elements, digits)
+    return _march(chain, mesh, elements, omega2, digits)
 
 
 # --- counts ----------------------------------------------------------------------------------
@@ -590,6 +649,8 @@ def _series_digits(chain, omega2, digits):
 
 
 def _determinant(chain, omega2):
+    if chain.nodes:
+        raise ValueError("the power series know no masses, springs or joints")
     states = [[mpfr(i == j) for i in range(4)] for j in _START[chain.left]]
     for segment in chain.segments:
         states = [_series_step(state, segment, omega2) for state in states]
