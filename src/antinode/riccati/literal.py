@@ -80,18 +80,20 @@ def riccati_characteristic(chain: Chain, omega2: npt.ArrayLike) -> Array:
     array, shape (k,)
         ``prod sgn det(U11 + U12 S_i) * det(rows of [1; S_n] that the right end sets to zero)``,
         with the state split as the left end asks (Z_b is what it sets to zero); for two free
-        ends exactly equation 80.
+        ends exactly equation 80. NaN where a step meets a pole of S exactly.
     """
     lanes = np.atleast_1d(np.asarray(omega2, dtype=float))
     fine = split_long(chain, float(np.max(np.abs(lanes))))
     a, b = _left_partition(chain)
     S = np.zeros((len(lanes), len(b), len(a)))
-    sign = np.ones(len(lanes))
+    sign = np.ones(len(lanes))  # NaN from a pole on
     for U in _all_steps(fine, lanes):
         U11, U12 = U[:, a][:, :, a], U[:, a][:, :, b]
         U21, U22 = U[:, b][:, :, a], U[:, b][:, :, b]
         denominator = U11 + U12 @ S
-        sign *= np.sign(np.linalg.det(denominator))
+        determinant = np.linalg.det(denominator)
+        sign *= np.where(determinant == 0.0, np.nan, np.sign(determinant))
+        denominator[determinant == 0.0] = np.eye(len(a))
         S = (U21 + U22 @ S) @ np.linalg.inv(denominator)
     state = np.empty((len(lanes), len(a) + len(b), len(a)))
     state[:, a], state[:, b] = np.eye(len(a)), S
