@@ -12,7 +12,7 @@ from cyclopts import App, Parameter
 from . import __version__
 from .errors import ComputationError, InputError
 from .examples import EXAMPLES, write_example
-from .options import BucklingFactor, Json, Output, Set, Solver
+from .options import BeamSet, BucklingFactor, Json, Output, Set, Solver
 from .text import short
 
 if TYPE_CHECKING:
@@ -72,12 +72,11 @@ def modes(
         _draw(plot_case(problem, result), output.plot)
     _write_modes(output, data, result)
     if not output.json:
-        from .printing import console, show_condition, show_modes, show_warnings
+        from .printing import console, show_condition, show_modes
 
         out = console()
         show_condition(out, problem)
-        show_modes(out, result)
-        show_warnings(out, problem.loads.warnings)
+        show_modes(out, result, problem.loads.warnings)
 
 
 @app.command(sort_key=4)
@@ -85,7 +84,7 @@ def beam(
     file: Path,
     /,
     *,
-    set_: Set = (),
+    set_: BeamSet = (),
     solver: Solver = _SOLVER,
     buckling: BucklingFactor = False,
     output: Output = _OUTPUT,
@@ -236,16 +235,27 @@ def verify(*, json: Json = False) -> None:
 
 
 @app.command(sort_key=7)
-def reproduce(*, json: Json = False) -> None:
+def reproduce(
+    *,
+    out: Annotated[
+        Path | None, Parameter(help="Also write figures and a page into this folder.")
+    ] = None,
+    json: Json = False,
+) -> None:
     """Compare a reconstructed vehicle with the tables of the paper behind antinode.
 
     The data of the paper's own vehicle are lost. **antinode init --example paper** writes the one
     that stands in for it. Exit code 1 if a difference is beyond the bounds that ship with it.
 
     - Example: **antinode reproduce**
+    - Example: **antinode reproduce --out paper**
     """
     from .paper.comparison import check_bounds, compare
 
+    if out:
+        from .paper.writing import check_folder
+
+        check_folder(out)
     comparison = compare()
     if json:
         _print_json(comparison.to_dict())
@@ -254,6 +264,10 @@ def reproduce(*, json: Json = False) -> None:
         from .printing import console
 
         show_comparison(console(), comparison)
+    if out:
+        from .paper.writing import write_all
+
+        _say_written(write_all(comparison, out))
     check_bounds(comparison)
 
 

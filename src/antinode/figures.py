@@ -22,7 +22,7 @@ ENDINGS = (".png", ".svg", ".pdf")
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#5A5A5A")
 """Colours that stay apart for colour-blind eyes (Okabe and Ito)."""
 
-_STYLE: Any = {
+STYLE: Any = {
     "font.size": 9,
     "font.family": "DejaVu Sans",
     "axes.spines.top": False,
@@ -42,9 +42,11 @@ _STYLE: Any = {
     "figure.dpi": 120,
     "savefig.dpi": 160,
 }
+"""Settings of matplotlib that all figures share."""
 
 
-def _pyplot() -> Any:
+def pyplot() -> Any:
+    """Return matplotlib.pyplot, drawing to files; raise InputError if it is not installed."""
     try:
         import matplotlib
     except ImportError as error:
@@ -60,7 +62,7 @@ def _pyplot() -> Any:
 def check_plot(path: Path) -> None:
     """Raise InputError if a figure of this name cannot be drawn, before any work is done."""
     check_output(path, ENDINGS)
-    _pyplot()
+    pyplot()
 
 
 def save(figure: Figure, path: Path) -> None:
@@ -69,7 +71,7 @@ def save(figure: Figure, path: Path) -> None:
     import matplotlib.pyplot as plt
 
     try:
-        with matplotlib.rc_context(_STYLE):
+        with matplotlib.rc_context(STYLE):
             figure.savefig(path)
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
@@ -79,8 +81,8 @@ def save(figure: Figure, path: Path) -> None:
 
 def plot_modes(result: ModalResult, most: int = 6) -> Figure:
     """Draw bending shapes, their moments, longitudinal shapes and the axial force of a beam."""
-    plt = _pyplot()
-    with plt.rc_context(_STYLE):
+    plt = pyplot()
+    with plt.rc_context(STYLE):
         longitudinal = [m for m in result.family("longitudinal") if m.number]
         rows = 2 + bool(longitudinal) + (not result.beam.is_unloaded)
         figure: Figure
@@ -97,8 +99,8 @@ def plot_modes(result: ModalResult, most: int = 6) -> Figure:
 
 def plot_case(case: Case, result: ModalResult, most: int = 6) -> Figure:
     """Draw the vehicle in its cavity, its axial force and its modes, one above the other."""
-    plt = _pyplot()
-    with plt.rc_context(_STYLE):
+    plt = pyplot()
+    with plt.rc_context(STYLE):
         figure: Figure
         figure, axes = plt.subplots(
             5,
@@ -118,8 +120,8 @@ def plot_case(case: Case, result: ModalResult, most: int = 6) -> Figure:
 
 def plot_loads(case: Case) -> Figure:
     """Draw the vehicle in its cavity and N, Q and M along it."""
-    plt = _pyplot()
-    with plt.rc_context(_STYLE):
+    plt = pyplot()
+    with plt.rc_context(STYLE):
         figure: Figure
         figure, axes = plt.subplots(
             4,

@@ -44,7 +44,20 @@ MODES = ("result", "modes", "buckling")
 READING = ("explain", "override", "files", "limits")
 INPUTS = ("attachment_tables", "beam_file", "case", "statics")
 OUTPUTS = ("dataset", "loads_table", "figures", "verify", "printing", "schema")
-PAPER = ("paper", "paper.tables", "paper.comparison", "paper.terminal")
+PAPER = (
+    "paper",
+    "paper.tables",
+    "paper.comparison",
+    "paper.terminal",
+    "paper.scene",
+    "paper.plates",
+    "paper.vehicle_figures",
+    "paper.mode_figures",
+    "paper.difference_figure",
+    "paper.gallery",
+    "paper.page",
+    "paper.writing",
+)
 COMMANDS = ("examples", "options", "commands", "cli")
 
 MAY_IMPORT = {

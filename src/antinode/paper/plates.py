@@ -1,0 +1,171 @@
+"""Figures with captions, of one style, written as SVG, PDF and PNG (matplotlib)."""
+
+from __future__ import annotations
+
+import io
+import re
+import textwrap
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from antinode.figures import PALETTE, STYLE, pyplot
+
+from .scene import Scene
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+INK, GREY, LIGHT = "#1F2937", "#6B7280", "#E3E6EA"
+WIDTH = 7.1  # inches, two columns of a journal
+_JOURNAL: Any = {
+    **STYLE,
+    "font.family": "sans-serif",
+    "font.size": 8,
+    "axes.labelsize": 8,
+    "axes.titlesize": 8.5,
+    "axes.titleweight": "normal",
+    "axes.labelcolor": INK,
+    "axes.linewidth": 0.7,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "xtick.color": GREY,
+    "ytick.color": GREY,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "legend.fontsize": 7.5,
+    "legend.handlelength": 1.6,
+    "grid.color": LIGHT,
+    "lines.linewidth": 1.4,
+    "mathtext.fontset": "dejavusans",
+    "figure.dpi": 100,
+    "savefig.dpi": 250,
+    "text.color": INK,
+}
+_CAPTION_SIZE, _CAPTION_COLUMNS = 7.5, 128
+_LINE = _CAPTION_SIZE * 1.4 / 72  # inches
+_SYMBOL = re.compile(r"\b([^\W\d_])_(\w+)\b")
+BENDING, LONGITUDINAL = PALETTE[:6], PALETTE[:6]
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A figure of the paper: how it is named, and what draws it.
+
+    Attributes
+    ----------
+    name : str
+        File name without its ending.
+    heading : str
+        ``"Figure 7"``.
+    draw : callable
+        Takes a scene and returns the figure and its caption.
+    """
+
+    name: str
+    heading: str
+    draw: Callable[[Scene], tuple[Figure, str]]
+
+
+@contextmanager
+def journal_style() -> Iterator[Any]:
+    """Give matplotlib.pyplot with the style of all plates."""
+    plt = pyplot()
+    with plt.rc_context(_JOURNAL):
+        yield plt
+
+
+def sheet(height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Any, Any]:
+    """Return a figure of the full width and so many inches of height, and its axes."""
+    figure, axes = pyplot().subplots(
+        rows, columns, figsize=(WIDTH, height), layout="constrained", **options
+    )
+    return figure, axes
+
+
+def letter(axes: Axes, text: str, mark: str) -> None:
+    """Put the letter of a panel and what it shows over its left corner."""
+    axes.set_title(f"({mark})  {text}")
+
+
+def shades(number: int) -> list[Any]:
+    """Return colours for an ordered quantity, dark to light, told apart by colour-blind eyes."""
+    import matplotlib as mpl
+
+    ramp = mpl.colormaps["viridis"]
+    return [ramp(0.88 * k / max(number - 1, 1)) for k in range(number)]
+
+
+def zero_line(axes: Axes) -> None:
+    """Draw the line of zero, under the curves."""
+    axes.axhline(0, color=GREY, linewidth=0.6, zorder=1)
+
+
+def publish(plate: Plate, scene: Scene, folder: Path) -> tuple[str, str]:
+    """Write a plate as SVG, PDF and PNG, its caption below it.
+
+    Returns
+    -------
+    str
+        The drawing as SVG without the caption, for a page.
+    str
+        The caption.
+    """
+    with journal_style() as plt:
+        plt.rcParams["svg.hashsalt"] = plate.name
+        figure, caption = plate.draw(scene)
+        text = f"{plate.heading} (reconstruction). {caption}"
+        strip = _add_caption(figure, text)
+        about = {"Title": f"{plate.heading} (reconstruction)"}
+        buffer = io.StringIO()
+        figure.savefig(buffer, format="svg", metadata={**about, "Date": None, "Creator": None})
+        folder.joinpath(f"{plate.name}.svg").write_text(buffer.getvalue(), encoding="utf-8")
+        dates = {"CreationDate": None, "ModDate": None}
+        figure.savefig(folder / f"{plate.name}.pdf", metadata={**about, "Subject": text, **dates})
+        figure.savefig(folder / f"{plate.name}.png", metadata={**about, "Description": text})
+        plt.close(figure)
+    return _without_caption(buffer.getvalue(), strip, plate.name), caption
+
+
+def _add_caption(figure: Figure, text: str) -> float:
+    """Write the caption into a strip below the figure; return its height [in]."""
+    lines = textwrap.wrap(text, _CAPTION_COLUMNS)
+    strip = len(lines) * _LINE + 0.16
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + strip)
+    bottom = strip / (height + strip)
+    engine: Any = figure.get_layout_engine()
+    engine.set(rect=(0, bottom, 1, 1 - bottom))
+    figure.text(
+        0.012,
+        bottom - 0.05 / (height + strip),
+        "\n".join(_SYMBOL.sub(r"$\1_{\\mathrm{\2}}$", line) for line in lines),
+        fontsize=_CAPTION_SIZE,
+        linespacing=1.4,
+        va="top",
+        gid="caption",
+    )
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    return strip
+
+
+_SIZE = re.compile(r'width="[\d.]+pt" height="([\d.]+)pt" viewBox="0 0 ([\d.]+) [\d.]+"')
+
+
+def _without_caption(svg: str, strip: float, name: str) -> str:
+    """Return a drawing for a page: its strip cut off, no header, ids of its own, no namespaces."""
+    svg = re.sub(r'<g id="caption">.*?</g>\s*(?=</g>\s*<defs>|</g>\s*</svg>)', "", svg, flags=re.S)
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
+    svg = re.sub(r' xmlns(:\w+)?="[^"]*"', "", svg[svg.index("<svg") :])
+    size = _SIZE.search(svg)
+    assert size is not None
+    height = float(size[1]) - 72 * strip
+    svg = _SIZE.sub(f'viewBox="0 0 {size[2]} {height:.2f}" role="img"', svg, count=1)
+    svg = re.sub(r'\bid="', f'id="{name}-', svg)
+    return re.sub(r'(url\(#|href="#)', rf"\g<1>{name}-", svg)
