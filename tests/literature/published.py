@@ -2,6 +2,11 @@
 
 A published number is kept as the text that was printed, so that its last digit is known. antinode
 must agree within one unit of that digit: some tables are rounded, others cut off.
+
+Where the numbers were read: Ozgumus and Kaya in the reprint that the test names, Hodges and Pierce
+as quoted in the tests of AeroBeams.jl, Greenhill as quoted in encyclopaedias. The other tables were
+written down without a copy at hand, before antinode was run on them; a slip of memory would not
+agree to the last digit. What did not agree was left out, never adjusted.
 """
 
 from collections.abc import Callable, Iterable

