@@ -6,15 +6,21 @@ The pinned differences stand in src/antinode/paper/bounds.toml; a new vehicle br
 
 import json
 import math
+import re
+import subprocess
+import sys
 import tomllib
+from html.parser import HTMLParser
 from importlib.resources import files
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
 from antinode.paper.comparison import Bounds, compare, read_bounds, size_of
+from antinode.paper.page import read_notes
 from antinode.paper.tables import BURN_FRACTION, TABLES, read_rows
-from cli_run import run
+from cli_run import python, refused, run
 
 HELD_OUT = {
     (1, "cavitation_number", 0.014),
@@ -163,3 +169,109 @@ def test_the_example_says_that_it_is_a_reconstruction():
         assert "RECONSTRUCTION" in (folder / name).read_text("utf-8").splitlines()[0]
     tables = tomllib.loads((folder / "case.toml").read_text("utf-8"))
     assert "reconstructed" in tables["vehicle"]["name"]
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """The folder that the whole command writes, started from an empty one, and how it ended."""
+    empty = tmp_path_factory.mktemp("empty")
+    done = subprocess.run(
+        python("reproduce", "--out", "paper"),
+        cwd=empty,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return empty / "paper", done
+
+
+def test_the_whole_command_in_an_empty_folder(written):
+    folder, done = written
+    assert (done.returncode, done.stderr) == (0, "wrote paper/index.html\n")
+    assert "Table 5" in done.stdout
+    figures = {path.stem for path in folder.iterdir()} - {"index"}
+    numbers = {name.split("_")[1] for name in figures if name.startswith("figure_")}
+    assert numbers == {f"{n:02d}" for n in range(3, 18)}
+    for name in figures:
+        for ending in ("svg", "pdf", "png"):
+            assert (folder / f"{name}.{ending}").stat().st_size > 5000
+    assert {path.suffix for path in folder.iterdir()} == {".svg", ".pdf", ".png", ".html"}
+
+
+def test_the_page_stands_alone(written):
+    text = (written[0] / "index.html").read_text("utf-8")
+    for word in ("http:", "https:", "<script", "<link", "@import", "file:"):
+        assert word not in text
+    targets = re.findall(r'(?:href|src)="([^"]*)"', text) + re.findall(r"url\(([^)]*)\)", text)
+    assert targets
+    ids = re.findall(r'\bid="([^"]*)"', text)
+    assert len(ids) == len(set(ids))
+    assert all(target.startswith("#") and target[1:] in ids for target in targets)
+
+
+class Reader(HTMLParser):
+    """Checks that tags close in order, and gathers the text."""
+
+    OPEN = ("meta", "br", "path", "use", "rect")
+
+    def __init__(self):
+        super().__init__()
+        self.stack, self.words = [], []
+
+    def handle_starttag(self, tag, attrs):
+        if tag not in self.OPEN:
+            self.stack.append(tag)
+
+    def handle_endtag(self, tag):
+        if tag not in self.OPEN:
+            assert self.stack.pop() == tag
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+def test_the_page_holds_tables_figures_captions_and_notes(written):
+    text = (written[0] / "index.html").read_text("utf-8")
+    reader = Reader()
+    reader.feed(text)
+    assert reader.stack == []
+    shown = "".join(reader.words)
+    assert "RECONSTRUCTION" in shown
+    assert text.count("<svg") == text.count("<figcaption>") == 16
+    assert text.count("(reconstruction).</em>") == 16
+    assert "$" not in shown
+    for row in read_rows():
+        for frequency in row.frequencies_hz:
+            assert f"{frequency:.4f}" in shown
+    assert shown.count("held out") >= sum(row.held_out for row in read_rows())
+    for note in read_notes():
+        assert note.keys() == {"where", "printed", "taken", "evidence"}
+        assert note["where"] in shown
+
+
+def test_every_drawing_has_its_caption_and_says_what_it_is(written):
+    for path in written[0].glob("*.svg"):
+        words = " ".join("".join(ElementTree.parse(path).getroot().itertext()).split())
+        assert "(reconstruction)." in words
+        assert "eq." in words or not path.stem.startswith(("figure_03", "figure_1"))
+
+
+def test_the_same_files_every_time(written, tmp_path, comparison):
+    from antinode.paper.gallery import PLATES
+    from antinode.paper.plates import publish
+    from antinode.paper.scene import Scene
+
+    publish(PLATES[2], Scene(comparison), tmp_path)
+    for path in tmp_path.iterdir():
+        assert path.read_bytes() == (written[0] / path.name).read_bytes()
+
+
+def test_reproduce_says_what_it_needs(tmp_path, monkeypatch):
+    file = tmp_path / "file"
+    file.write_text("")
+    refused(run("reproduce", "--out", file), "--out", "name another folder")
+    refused(run("reproduce", "--out", file / "inner"), "--out", "name another folder")
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    refused(run("reproduce", "--out", tmp_path / "new"), "pip install 'antinode[plot]'")
+    assert not (tmp_path / "new").exists()
+    assert run("reproduce").code == 0

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MARKERS = "os^DvP"
-_HEADS = ("$\\sigma$", "$V$ [m/s]", "$\\alpha$ [deg]", "$x_{fin}$ [m]", "$V$ [m/s]")
+_HEADS = ("σ", "V [m/s]", "α [deg]", "$x_{fin}$ [m]", "V [m/s]")
 
 
 def differences(scene: Scene) -> tuple[Figure, str]:

@@ -148,8 +148,8 @@ def _close_up(axes: Axes, scene: Scene, number: int, mark: str) -> None:
 # --- figures 10 to 15 ---------------------------------------------------------------------------
 
 _Component = tuple[str, int, float, str]
-X: _Component = ("longitudinal", 0, 1e3, "$X$ [mm]")
-Y: _Component = ("bending", 0, 1e3, "$Y$ [mm]")
+X: _Component = ("longitudinal", 0, 1e3, "X [mm]")
+Y: _Component = ("bending", 0, 1e3, "Y [mm]")
 THETA: _Component = ("bending", 1, 1e3, r"$\theta_z$ [mrad]")
 Q_X: _Component = ("longitudinal", 1, 1e-3, "$Q_x$ [kN]")
 Q_Y: _Component = ("bending", 3, 1e-3, "$Q_y$ [kN]")
@@ -173,7 +173,7 @@ def _modes(scene: Scene, component: _Component) -> Figure:
         letter(axes, f"modes {first + 1} to {first + 3}", mark)
         axes.set_ylabel(label)
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), labelspacing=0.9)
-    panels[1].set(xlabel="$x$ from the nose [m]", xlim=(0, scene.modal.vehicle.length))
+    panels[1].set(xlabel="x from the nose [m]", xlim=(0, scene.modal.vehicle.length))
     drawn: Figure = figure
     return drawn
 

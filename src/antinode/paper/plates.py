@@ -123,7 +123,8 @@ def publish(plate: Plate, scene: Scene, folder: Path) -> tuple[str, str]:
         strip = _add_caption(figure, text)
         about = {"Title": f"{plate.heading} (reconstruction)"}
         buffer = io.StringIO()
-        figure.savefig(buffer, format="svg", metadata={**about, "Date": None, "Creator": None})
+        words = {**about, "Description": text, "Date": None, "Creator": None}
+        figure.savefig(buffer, format="svg", metadata=words)
         folder.joinpath(f"{plate.name}.svg").write_text(buffer.getvalue(), encoding="utf-8")
         dates = {"CreationDate": None, "ModDate": None}
         figure.savefig(folder / f"{plate.name}.pdf", metadata={**about, "Subject": text, **dates})

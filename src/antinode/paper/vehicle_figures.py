@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Drawn = tuple["Figure", str]
 BLUE, RED, GREEN, PINK = PALETTE[0], PALETTE[1], PALETTE[2], PALETTE[3]
-_X = "$x$ from the nose [m]"
+_X = "x from the nose [m]"
 
 
 # --- figure 3, with the forces of figure 1 -----------------------------------------------------
@@ -86,7 +86,7 @@ def _axial_arrows(axes: Axes, case: Case, reach: float) -> None:
     _label(axes, at, f"$F_{{CX}}$ = {_kN(loads.F_CX)}", RED, va="top", ha="right")
     _arrow(axes, (L, 0), (far, 0), GREEN)
     at = (1.075 * L, 0.15 * reach)
-    _label(axes, at, f"$T$ = {_kN(loads.thrust)}", GREEN, va="bottom", ha="left")
+    _label(axes, at, f"T = {_kN(loads.thrust)}", GREEN, va="bottom", ha="left")
     for fins, load in zip(case.vehicle.fins, loads.fins, strict=True):
         if load.F_fX > 0:
             top = fins.tip_radius * max(np.cos(fins.roll_angles))
@@ -129,7 +129,7 @@ def _lateral_arrows(axes: Axes, case: Case, reach: float) -> None:
 def mass(scene: Scene) -> Drawn:
     """Draw the mass per length at the start."""
     total = scene.common.vehicle.mass_distribution(0.0).moments(_length(scene))[0]
-    figure = _distribution(scene, "mass_per_length", 1.0, "mass per length $m$ [kg/m]", BLUE)
+    figure = _distribution(scene, "mass_per_length", 1.0, "mass per length m [kg/m]", BLUE)
     return figure, (
         f"Mass per length along the vehicle at t = 0 s, {total:,.0f} kg in all. It was found from "
         "the frequencies of Tables 1 to 5; the paper's own curve is lost."
@@ -139,7 +139,7 @@ def mass(scene: Scene) -> Drawn:
 def axial_stiffness(scene: Scene) -> Drawn:
     """Draw EA."""
     figure = _distribution(
-        scene, "axial_stiffness", 1e6, "axial stiffness $EA$ [MN]", GREEN, along=True
+        scene, "axial_stiffness", 1e6, "axial stiffness EA [MN]", GREEN, along=True
     )
     return figure, (
         "Axial stiffness EA along the vehicle; dashed, for it is an assumption: the tables hold "
@@ -149,7 +149,7 @@ def axial_stiffness(scene: Scene) -> Drawn:
 
 def bending_stiffness(scene: Scene) -> Drawn:
     """Draw EI."""
-    figure = _distribution(scene, "bending_stiffness", 1e3, "bending stiffness $EI$ [kN m²]", RED)
+    figure = _distribution(scene, "bending_stiffness", 1e3, "bending stiffness EI [kN m²]", RED)
     return figure, (
         "Bending stiffness EI along the vehicle, found from the frequencies of Tables 1 to 5 "
         "together with the mass. Frequencies fix the two up to a common factor, which the axial "
@@ -191,9 +191,9 @@ def mass_states(scene: Scene) -> Drawn:
     _, burnt = _profile(scene, "mass_per_length", 1.0)
     totals = [body.mass_distribution(burn).moments(body.length)[0] for burn in (0.0, 1.0)]
     axes.fill_between(x, burnt, full, color=PALETTE[4], alpha=0.25, linewidth=0, label="burnt")
-    axes.plot(x, full, color=BLUE, label=f"$t$ = 0 s: {totals[0]:,.0f} kg")
-    axes.plot(x, burnt, color=RED, linestyle="--", label=f"$t$ = 10 s: {totals[1]:,.0f} kg")
-    axes.set(xlabel=_X, ylabel="mass per length $m$ [kg/m]", xlim=(0, body.length), ylim=(0, None))
+    axes.plot(x, full, color=BLUE, label=f"t = 0 s: {totals[0]:,.0f} kg")
+    axes.plot(x, burnt, color=RED, linestyle="--", label=f"t = 10 s: {totals[1]:,.0f} kg")
+    axes.set(xlabel=_X, ylabel="mass per length m [kg/m]", xlim=(0, body.length), ylim=(0, None))
     axes.legend(loc="upper right")
     return figure, (
         "Mass per length at the start, t = 0 s, and in the steady state, t = 10 s. The second "
@@ -219,7 +219,7 @@ def cavities(scene: Scene) -> Drawn:
     letter(walls, "cavity walls and body; heights are stretched", "a")
     walls.set(ylabel="height [m]")
     walls.grid(visible=False)
-    walls.legend(title="$\\sigma$", loc="center left", bbox_to_anchor=(1.0, 0.5))
+    walls.legend(title="σ", loc="center left", bbox_to_anchor=(1.0, 0.5))
     letter(axis, "cavity axis above body axis", "b")
     zero_line(axis)
     for style, text in (("-", "sum"), ("--", "$h_g$"), (":", "$-h_\\sigma$")):
@@ -283,7 +283,7 @@ def _body(axes: Axes, case: Case) -> None:
 def axial_forces(scene: Scene) -> Drawn:
     """Draw N(x) in the conditions of Tables 1 to 4."""
     figure, panels = sheet(5.6, 2, 2, sharex=True, sharey=True)
-    heads = ("$\\sigma$", "$V$ [m/s]", "$\\alpha$ [deg]", "$x_{fin}$ [m]")
+    heads = ("σ", "V [m/s]", "α [deg]", "$x_{fin}$ [m]")
     for table, head, axes in zip(TABLES, heads, panels.flat, strict=False):
         lines = scene.comparison.table(table.number)
         for line, colour in zip(lines, shades(len(lines)), strict=True):
@@ -294,7 +294,7 @@ def axial_forces(scene: Scene) -> Drawn:
         axes.legend(title=head, loc=place, ncols=2, columnspacing=1.0)
         zero_line(axes)
     for axes in panels[:, 0]:
-        axes.set_ylabel("axial compression $N$ [kN]")
+        axes.set_ylabel("axial compression N [kN]")
     for axes in panels[-1]:
         axes.set(xlabel=_X, xlim=(0, _length(scene)))
     return figure, (
@@ -309,14 +309,14 @@ def axial_forces(scene: Scene) -> Drawn:
 def axial_forces_in_time(scene: Scene) -> Drawn:
     """Draw N(x) in the two conditions of Table 5."""
     figure, axes = sheet(2.7)
-    styles = ((BLUE, "-", "$t$ = 0 s"), (RED, "--", "$t$ = 10 s"))
+    styles = ((BLUE, "-", "t = 0 s"), (RED, "--", "t = 10 s"))
     for case, (colour, dashes, text) in zip(scene.cases(5), styles, strict=True):
         x, N = axial_force_curve(case)
         c = case.condition
-        label = f"{text}: $V$ = {c.speed:g} m/s, $T$ = {_kN(c.thrust)}"
+        label = f"{text}: V = {c.speed:g} m/s, T = {_kN(c.thrust)}"
         axes.plot(x, N, color=colour, linestyle=dashes, label=label)
     zero_line(axes)
-    axes.set(xlabel=_X, ylabel="axial compression $N$ [kN]", xlim=(0, _length(scene)))
+    axes.set(xlabel=_X, ylabel="axial compression N [kN]", xlim=(0, _length(scene)))
     axes.legend(loc="best")
     loads = scene.cases(5)[-1].loads
     return figure, (
