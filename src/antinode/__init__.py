@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from .model import Model
     from .modes import solve_modes
     from .result import ModalResult, Mode
+    from .study.identification import Identification, identify
+    from .study.identification_file import IdentificationProblem, load_identification
     from .vehicle import Cavitator, FinSet, Stations, Vehicle
 
 _HOME = {
@@ -43,6 +45,10 @@ _HOME = {
     "solve_modes": "modes",
     "ModalResult": "result",
     "Mode": "result",
+    "Identification": "study.identification",
+    "identify": "study.identification",
+    "IdentificationProblem": "study.identification_file",
+    "load_identification": "study.identification_file",
     "Cavitator": "vehicle",
     "FinSet": "vehicle",
     "Stations": "vehicle",
@@ -58,6 +64,8 @@ __all__ = [
     "ComputationError",
     "Ends",
     "FinSet",
+    "Identification",
+    "IdentificationProblem",
     "InputError",
     "Loads",
     "ModalResult",
@@ -69,8 +77,10 @@ __all__ = [
     "Water",
     "__version__",
     "compute_loads",
+    "identify",
     "load_beam",
     "load_case",
+    "load_identification",
     "solve_modes",
 ]
 

@@ -12,7 +12,17 @@ from cyclopts import App, Parameter
 from . import __version__
 from .errors import ComputationError, InputError
 from .examples import EXAMPLES, write_example
-from .options import BeamSet, BucklingFactor, Json, Output, Set, Solver
+from .options import (
+    BeamSet,
+    BucklingFactor,
+    Folder,
+    IdentifySet,
+    Json,
+    Output,
+    Overwrite,
+    Set,
+    Solver,
+)
 from .text import short
 
 if TYPE_CHECKING:
@@ -196,6 +206,36 @@ def init(
     print(f"next: {command}")
 
 
+@app.command(sort_key=8)
+def identify(
+    file: Path,
+    /,
+    *,
+    set_: IdentifySet = (),
+    folder: Folder = None,
+    overwrite: Overwrite = False,
+    json: Json = False,
+) -> None:
+    """Find the parameters of a vehicle that explain observed frequencies.
+
+    The file names a case, observations of it, and what of it may change: numbers, numbers of every
+    row, and distributions along the body. Printed are observed against fitted frequencies, values
+    with standard deviations, and what the data leave open. Ctrl-C ends it with the best values so
+    far (exit code 130).
+
+    - Example: **antinode identify identify.toml -o fitted**
+    - Example: **antinode identify identify.toml --set fit.starts=8 --json**
+
+    Parameters
+    ----------
+    file
+        An identification file in TOML. 'antinode schema identify' lists its keys.
+    """
+    from .study.identification_command import run_identification
+
+    run_identification(file, set_, folder, overwrite=overwrite, json=json)
+
+
 @app.command(sort_key=5)
 def schema(of: str = "case", /) -> None:
     """Print the JSON schema of an input file, every key with its unit and range.
@@ -206,11 +246,16 @@ def schema(of: str = "case", /) -> None:
     Parameters
     ----------
     of
-        case or beam.
+        case, beam or identify.
     """
     from .schema import input_schema
 
-    _print_json(input_schema(of))
+    if of == "identify":
+        from .study.identification_schema import identification_schema
+
+        _print_json(identification_schema())
+    else:
+        _print_json(input_schema(of))
 
 
 @app.command(sort_key=6)

@@ -193,6 +193,11 @@ def read_csv(path: Path, columns: Sequence[str]) -> dict[str, list[float]]:
     }
 
 
+def read_cells(path: Path) -> list[Row]:
+    """Read the cells of any CSV table, header first; empty rows and ``#`` lines are left out."""
+    return list(_rows(_read_text(path, MOST_CSV_BYTES, "a CSV table"), path))
+
+
 _NEEDED = "it needs a header such as 'x [m], mass_per_length [kg/m], ...' and two rows or more"
 
 

@@ -55,6 +55,36 @@ BucklingFactor = Annotated[
 ]
 
 
+IdentifySet = Annotated[
+    tuple[str, ...],
+    Parameter(
+        name="--set",
+        help="Override a key of the identification file: --set fit.starts=8 (repeatable).",
+        negative="",
+        show_default=False,
+        group=_input,
+    ),
+]
+Folder = Annotated[
+    Path | None,
+    Parameter(
+        name=["-o", "--output"],
+        help="Write the fitted case, tables and JSON into this folder.",
+        group=_output,
+    ),
+]
+Overwrite = Annotated[
+    bool,
+    Parameter(
+        name="--overwrite",
+        help="Write over files of an earlier run.",
+        negative="",
+        show_default=False,
+        group=_output,
+    ),
+]
+
+
 @Parameter(name="*")
 @dataclass(frozen=True)
 class Solver:

@@ -31,13 +31,19 @@ def input_schema(name: str) -> dict[str, Any]:
         If there is no such input file.
     """
     if name not in MODELS:
-        raise InputError(f"there is no schema {short(name)}; allowed are {', '.join(MODELS)}")
+        names = ", ".join([*MODELS, "identify"])
+        raise InputError(f"there is no schema {short(name)}; allowed are {names}")
     model, stations = MODELS[name]
     schema = model.model_json_schema()
     _name_mass_states(schema["$defs"][stations])
     for definition in schema["$defs"].values():
         if "stations" in definition.get("properties", {}):
             _allow_file(definition["properties"])
+    return as_in_toml(schema)
+
+
+def as_in_toml(schema: dict[str, Any]) -> dict[str, Any]:
+    """Return a schema with its dialect, and without the choice of null, which TOML lacks."""
     plain: dict[str, Any] = _without_null(schema)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **plain}
 

@@ -58,6 +58,27 @@ PAPER = (
     "paper.page",
     "paper.writing",
 )
+STUDY = (
+    "study",
+    "study.paths",
+    "study.observation_table",
+    "study.identification_file",
+    "study.columns",
+    "study.derivatives",
+    "study.response",
+    "study.observations",
+    "study.unknowns",
+    "study.misfit",
+    "study.fit",
+    "study.estimates",
+    "study.identification",
+    "study.identification_words",
+    "study.identification_tables",
+    "study.identified_case",
+    "study.identification_schema",
+    "study.identification_report",
+    "study.identification_command",
+)
 COMMANDS = ("examples", "options", "commands", "cli")
 
 MAY_IMPORT = {
@@ -70,6 +91,7 @@ MAY_IMPORT = {
     INPUTS: (WORDS, PHYSICS, RICCATI, BEAM, READING),
     OUTPUTS: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS),
     PAPER: (WORDS, INPUTS, MODES, OUTPUTS),
+    STUDY: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),
     COMMANDS: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),
 }
 """What the modules of a group import, beside those that stand before them in the group."""

@@ -1,0 +1,1 @@
+"""Studies of a case: identification of its parameters from observed frequencies."""
