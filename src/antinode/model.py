@@ -44,6 +44,18 @@ class Model(Frozen):
     planing: Literal["paper", "none"] = Field(
         default="paper", description="planing forces: eq. 16 and 17, or none"
     )
+    planing_area: Literal["arc", "projected"] = Field(
+        default="arc",
+        description="wetted width of eq. 16: the arc of the body outside the cavity, or its chord, "
+        "at most the body's diameter",
+    )
+    planing_position: Literal["centroid", "tail"] = Field(
+        default="centroid",
+        description="where the planing forces act: the centroid of the wetted area, or the tail",
+    )
+    planing_drag_factor: Annotated[Number, Field(ge=0)] = Field(
+        default=1.0, description="factor on the planing drag F_PX of eq. 16 [-]"
+    )
     planing_angle: Literal["wall", "axis", "attitude"] = Field(
         default="wall",
         description="alpha_p of eq. 16: slope between the axes plus that of the cavity wall, slope "

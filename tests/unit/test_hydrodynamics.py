@@ -337,6 +337,26 @@ class TestPlaningState:
         assert axis == close(abs(made[1].axis_slope(6.0)))
         assert wall == close(axis + abs(made[0].radius_slope(6.0)))
 
+    def test_projected_area_has_chords_for_arcs(self):
+        angle = np.array([0.0, 0.4, math.pi, 5.0])
+        R = 0.2
+        chords = [0, math.dist((R, 0), (R * math.cos(0.4), R * math.sin(0.4))), 2 * R, 2 * R]
+        assert tail.wetted_width(R, angle, "projected") == close(chords)
+        assert tail.wetted_width(R, angle, "arc") == close(R * angle)
+        arc, flat = (state(cavity(0.022, planing_area=a)) for a in ("arc", "projected"))
+        assert flat.length == arc.length
+        assert arc.area / math.pi < flat.area < arc.area
+        assert state(cavity(0.03, planing_area="projected"), lambda x: 0.5 + 0 * x).area == close(
+            1.0 * (6 - cavity(0.03).L_c / 2)
+        )
+
+    def test_where_and_how_large_the_drag_is_taken(self):
+        whole = state(cavity(0.022))
+        half = state(cavity(0.022, planing_drag_factor=0.5, planing_position="tail"))
+        assert whole.F_PX == close(2 * half.F_PX)
+        assert half.F_PY == whole.F_PY
+        assert whole.x_P < half.x_P == 6.0
+
     def test_sign_follows_the_offset(self):
         up, down = state(cavity(0.02, speed=40.0)), state(cavity(0.02, gravity=0, theta=-0.1))
         assert up.F_PY > 0 > down.F_PY

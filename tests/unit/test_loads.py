@@ -306,6 +306,8 @@ def cases(draw):
         gravity_rise=draw(st.sampled_from(["paper", "buoyancy", "none"])),
         fin_immersion=draw(st.sampled_from(["radial", "tip_distance"])),
         planing_angle=draw(st.sampled_from(["wall", "axis", "attitude"])),
+        planing_area=draw(st.sampled_from(["arc", "projected"])),
+        planing_position=draw(st.sampled_from(["centroid", "tail"])),
     )
     return body, at, model
 

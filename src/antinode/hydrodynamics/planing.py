@@ -7,7 +7,8 @@ wet all round: the bracket is 1. h' is at most 2. The force has the direction of
 axis above body axis wets the belly and pushes up. Drag is positive aft.
 
 The wetted area is where the circle of the body (radius R) stands out of the circle of the cavity
-(radius R_c), aft of the cavity's middle; the forces act at its centroid x_P.
+(radius R_c), aft of the cavity's middle; the forces act at its centroid x_P. Where the wetted area
+is measured across its chord, or the forces act at the tail, are options of the model.
 
 Source: "Analysis of the Natural Vibration Characteristics of a Supercavitating Underwater Vehicle
 Considering Hydrodynamic Conditions", eq. 16 and 17. Eq. 16 as printed is singular at h' = R';
@@ -188,6 +189,23 @@ def wet_angle(R: Any, R_c: Any, offset: Any) -> Any:
     return 2 * np.arccos(-cosine)
 
 
+def wetted_width(R: Any, angle: Any, area: str) -> Any:
+    """Width of the wetted surface across the body [m].
+
+    Parameters
+    ----------
+    R : array_like
+        Radius of the body [m].
+    angle : array_like
+        Angle of the body circle outside the cavity [rad], from 0 to 2 pi.
+    area : {"arc", "projected"}
+        Along the arc, or its chord, which from half a circle on is the diameter.
+    """
+    if area == "arc":
+        return R * angle
+    return 2 * R * np.sin(np.minimum(angle, math.pi) / 2)
+
+
 @dataclass(frozen=True)
 class WettedSurface:
     """Wetted part of the body aft of the cavity's middle.
@@ -245,12 +263,13 @@ def _integrate(pieces: Array, cavity: Cavity, radius: Radius, tail: float) -> We
     width = np.diff(pieces)[:, None]
     x = pieces[:-1, None] + width * _T
     R = radius(x)
-    arc = R * wet_angle(R, cavity.radius(x), cavity.axis_offset(x))
-    strips = width * _DT * arc
+    angle = wet_angle(R, cavity.radius(x), cavity.axis_offset(x))
+    across = wetted_width(R, angle, cavity.model.planing_area)
+    strips = width * _DT * across
     area = float(strips.sum())
     if area <= 0:
         return WettedSurface(0.0, 0.0, tail)
-    length = float(width[arc.any(axis=1)].sum())
+    length = float(width[across.any(axis=1)].sum())
     return WettedSurface(length, area, float((strips * x).sum() / area))
 
 
@@ -369,10 +388,11 @@ def planing_state(
     h, R_prime = float(immersion_ratio(offset, R_c, R)), clearance_ratio(R_c, R)
     alpha_p, all_round = planing_angle(cavity, tail), cavity.L_c < tail or R_prime <= 0
     size = planing_force(density, speed, R, h, R_prime, alpha_p, cavity.L_c < tail)
+    drag = planing_drag(density, speed, wet.length, wet.area, viscosity)
     return Planing(
-        F_PX=float(planing_drag(density, speed, wet.length, wet.area, viscosity)),
+        F_PX=cavity.model.planing_drag_factor * float(drag),
         F_PY=float(size * direction(offset, R, cavity.model.planing_direction_width)),
-        x_P=wet.centroid,
+        x_P=wet.centroid if cavity.model.planing_position == "centroid" else tail,
         h=h,
         R_prime=R_prime,
         alpha_p=float(alpha_p),
