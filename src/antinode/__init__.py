@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
+    from .batch import BatchResult, BeamBatch, solve_many
     from .beam import Beam, Ends
     from .beam_file import BeamFile, load_beam
     from .case import Case, load_case
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
     from .vehicle import Cavitator, FinSet, Stations, Vehicle
 
 _HOME = {
+    "BatchResult": "batch",
+    "BeamBatch": "batch",
+    "solve_many": "batch",
     "Beam": "beam",
     "Ends": "beam",
     "BeamFile": "beam_file",
@@ -57,7 +61,9 @@ _HOME = {
 
 __all__ = [
     "AntinodeError",
+    "BatchResult",
     "Beam",
+    "BeamBatch",
     "BeamFile",
     "Case",
     "Cavitator",
@@ -81,6 +87,7 @@ __all__ = [
     "load_beam",
     "load_case",
     "load_identification",
+    "solve_many",
     "solve_modes",
 ]
 

@@ -36,11 +36,12 @@ RICCATI = (
     "riccati.segment",
     "riccati.chain",
     "riccati.roots",
+    "riccati.lanes",
     "riccati.shapes",
     "riccati.literal",
 )
 BEAM = ("attachments", "beam", "axial")
-MODES = ("result", "modes", "buckling")
+MODES = ("result", "modes", "batch", "buckling")
 READING = ("explain", "override", "files", "limits")
 INPUTS = ("attachment_tables", "beam_file", "case", "statics")
 OUTPUTS = ("dataset", "loads_table", "figures", "verify", "printing", "schema")

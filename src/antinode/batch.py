@@ -1,0 +1,277 @@
+"""Certified bending frequencies of many beams at once, by the compiled chain.
+
+    result = solve_many(BeamBatch(length, mass_per_length, bending_stiffness, axial_force))
+    result.frequencies_hz
+
+Every beam is a chain of uniform segments, exact as it stands; rigid modes are set aside by their
+index. Each beam starts from the roots of the one before, so that a sweep is best kept in order.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import threading
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .beam import Ends
+from .errors import InputError
+from .riccati.chain import Chain
+from .riccati.roots import CountingError, check_certificate, find_eigenvalues
+
+Array = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+
+REASONS = (
+    "",
+    "out of reach: stiffness, mass and axial force of one segment do not go together",
+    "not certified: the counts did not bracket every mode",
+    "not certified: the characteristic function is not finite",
+    "invalid: length, mass and stiffness must be positive, and everything finite",
+    "not certified: modes too close to each other for the counts between them",
+    "past buckling: omega^2 of the first mode is negative",
+)
+"""What the codes in `BatchResult.reason` mean; 0 is success."""
+
+_WIDTH = 1e-10  # of a bracket, relative in omega^2
+_ROUNDING = 64 * np.finfo(float).eps
+_CLUSTERED, _PAST_BUCKLING = 5, 6
+_FREE = Ends()
+
+
+@dataclass(frozen=True)
+class BeamBatch:
+    """Beams of as many uniform segments each, one a row.
+
+    Parameters
+    ----------
+    length : array, shape (n,) or (beams, n)
+        Of the segments, from left to right [m].
+    mass_per_length, bending_stiffness : array, shape (n,) or (beams, n)
+        m [kg/m] and EI [N m^2].
+    axial_force : array, shape (n,) or (beams, n), optional
+        N [N], compression positive; zero by default.
+    ends : Ends
+        The same for all beams.
+    modes : int
+        Elastic modes 1 ... `modes` are computed.
+
+    Raises
+    ------
+    InputError
+        If the shapes do not go together. Values are checked beam by beam when they are solved.
+    """
+
+    length: Array
+    mass_per_length: Array
+    bending_stiffness: Array
+    axial_force: Array = field(default_factory=lambda: np.zeros(1))
+    ends: Ends = _FREE
+    modes: int = 6
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.modes <= 500:
+            raise InputError(f"modes is {self.modes}; allowed are 1 ... 500")
+        shapes = {name: np.shape(getattr(self, name)) for name in _ARRAYS}
+        try:
+            beams, n = np.broadcast_shapes((1, 1), *shapes.values())
+        except ValueError:
+            told = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+            raise InputError(
+                "the arrays of a batch have shapes (segments,) or (beams, segments); "
+                f"received {told}"
+            ) from None
+        for name in _ARRAYS:
+            own = np.atleast_2d(np.asarray(getattr(self, name), dtype=float))
+            rows = len(own) if name == "length" else beams
+            values = np.ascontiguousarray(np.broadcast_to(own, (rows, n)))
+            values.flags.writeable = False
+            object.__setattr__(self, name, values)
+
+    def __len__(self) -> int:
+        return len(self.mass_per_length)
+
+
+_ARRAYS = ("length", "mass_per_length", "bending_stiffness", "axial_force")
+
+
+@dataclass(frozen=True)
+class BatchResult:
+    """Elastic bending modes of every beam of a batch, each with its certificate.
+
+    Attributes
+    ----------
+    omega2 : array, shape (beams, modes)
+        [rad^2/s^2]; NaN where a beam could not be solved.
+    bracket_omega2 : array, shape (beams, modes, 2)
+        Encloses the eigenvalue [rad^2/s^2].
+    counts : array of int, shape (beams, modes, 2)
+        Number of eigenvalues, rigid ones included, below either end of the bracket.
+    error_omega2 : array, shape (beams, modes)
+        Half the bracket, and rounding [rad^2/s^2].
+    reason : array of int, shape (beams,)
+        0, or why a beam has NaN among its frequencies: an index of `REASONS`.
+    evaluations : array of int, shape (beams,)
+        How often the chain was evaluated.
+    """
+
+    omega2: Array
+    bracket_omega2: Array
+    counts: Integers
+    error_omega2: Array
+    reason: Integers
+    evaluations: Integers
+
+    @property
+    def frequencies_hz(self) -> Array:
+        """Natural frequencies [Hz], shape (beams, modes); NaN where omega^2 < 0 or unknown."""
+        return _hertz(self.omega2)
+
+    @property
+    def error_hz(self) -> Array:
+        """Half-width of the interval of frequency that holds the beam's own [Hz]."""
+        error = np.minimum(self.error_omega2, np.abs(self.omega2))
+        return np.asarray(_hertz(self.omega2) - _hertz(self.omega2 - error))
+
+    def why(self, beam: int) -> str:
+        """Return why a beam has NaN among its frequencies; empty if it has none."""
+        return REASONS[self.reason[beam]]
+
+    def __len__(self) -> int:
+        return len(self.omega2)
+
+
+def _hertz(omega2: Array) -> Array:
+    known = np.where(omega2 >= 0, omega2, np.nan)
+    return np.asarray(np.sqrt(known) / (2 * np.pi))
+
+
+def solve_many(batch: BeamBatch) -> BatchResult:
+    """Compute the natural frequencies of every beam of a batch, with brackets and counts.
+
+    Parameters
+    ----------
+    batch : BeamBatch
+
+    Returns
+    -------
+    BatchResult
+        A beam that fails has NaN and a reason; the others are not touched by it.
+    """
+    kernel = _compiled_kernel()
+    beams, modes = len(batch), batch.modes
+    omega2, low, high, rounding = (np.full((beams, modes), np.nan) for _ in range(4))
+    counts = np.zeros((beams, modes, 2), dtype=np.int64)
+    ends = np.array([kernel.ENDS[batch.ends.left], kernel.ENDS[batch.ends.right]])
+    reason, evaluations = kernel.solve_chains(
+        *(batch.length, batch.mass_per_length, batch.bending_stiffness, batch.axial_force),
+        *(ends, _rigid_modes(batch.ends), _WIDTH, omega2, low, high, counts, rounding),
+    )
+    for row in np.flatnonzero(reason == _CLUSTERED):
+        reason[row] = _part(batch, int(row), omega2, low, high, counts)
+    failed = reason != 0
+    omega2[failed], low[failed], high[failed], counts[failed] = np.nan, np.nan, np.nan, -1
+    reason[~failed & (omega2[:, 0] < 0)] = _PAST_BUCKLING
+    error = np.maximum(high - omega2, omega2 - low) + np.fmax(rounding, _rounding(batch, omega2))
+    return BatchResult(omega2, np.stack([low, high], axis=-1), counts, error, reason, evaluations)
+
+
+def _part(
+    batch: BeamBatch, row: int, omega2: Array, low: Array, high: Array, counts: Integers
+) -> int:
+    """Solve a beam whose modes nearly coincide by frames, which part them; return the reason."""
+    below = _rigid_modes(batch.ends)
+    h = batch.length[row if len(batch.length) > 1 else 0]
+    m, EI, N = (getattr(batch, name)[row] for name in _ARRAYS[1:])
+    chain = Chain(h, m, EI, N, batch.ends.left, batch.ends.right)
+    translates = not {batch.ends.left, batch.ends.right} & {"clamped", "pinned"}
+    zeros = below if not np.any(N) else int(translates)
+    try:
+        found = find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
+    except (CountingError, FloatingPointError):
+        return _CLUSTERED
+    if not check_certificate(found):
+        return _CLUSTERED
+    for k, value in enumerate(found[below : below + batch.modes]):
+        omega2[row, k], counts[row, k] = value.omega2, value.counts
+        low[row, k], high[row, k] = value.bracket
+    return 0
+
+
+def _rigid_modes(ends: Ends) -> int:
+    """Return how many rigid modes the ends leave: the index of the last one."""
+    held = [end in ("clamped", "pinned") for end in (ends.left, ends.right)]
+    turned = [end in ("clamped", "sliding") for end in (ends.left, ends.right)]
+    return 2 - min(2, sum(held) + any(turned))
+
+
+def _rounding(batch: BeamBatch, omega2: Array) -> Array:
+    """Estimate the rounding of omega^2: small against what elasticity and axial force add to it."""
+    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
+        EI, m = (np.mean(v, axis=1) for v in (batch.bending_stiffness, batch.mass_per_length))
+        N = np.max(np.abs(batch.axial_force), axis=1)[:, None]
+        b, c = N / (2 * EI[:, None]), np.abs(omega2) * (m / EI)[:, None]
+        wave = b + np.sqrt(b * b + c)
+        return np.asarray(_ROUNDING * (np.abs(omega2) + 2 * N * wave / m[:, None]))
+
+
+# --- the compiled kernel ----------------------------------------------------------------------
+
+_kernel: list[ModuleType] = []
+
+
+def _compiled_kernel() -> ModuleType:
+    """Import the kernel and have it compiled, or taken from numba's cache, once a process."""
+    if not _kernel:
+        _kernel.append(_prepare())
+    return _kernel[0]
+
+
+def _prepare() -> ModuleType:
+    """Compile on a small chain, and tell on stderr if it takes long."""
+    start = time.perf_counter()
+    notice = threading.Timer(2.0, _say, ["compiling the batch kernel, once; some 20 s"])
+    notice.daemon = True
+    notice.start()
+    try:
+        lanes = _import_kernel()
+        one, out = np.ones((1, 1)), np.zeros((1, 1))
+        for array in (one, out):
+            array.flags.writeable = array is out
+        lanes.solve_chains(
+            *(one, one, one, one, np.array([0, 0]), 2, _WIDTH),
+            *(out, out.copy(), out.copy(), np.zeros((1, 1, 2), dtype=np.int64), out.copy()),
+        )
+    finally:
+        notice.cancel()
+    misses: Any = lanes.solve_chains.stats.cache_misses
+    if misses:
+        _say(f"compiled the batch kernel in {time.perf_counter() - start:.1f} s")
+    return lanes
+
+
+def _import_kernel() -> ModuleType:
+    """Import the kernel; keep its cache in a temporary folder if numba finds no other place."""
+    try:
+        from .riccati import lanes
+    except RuntimeError as error:
+        if "cannot cache" not in str(error):
+            raise
+        from numba import config
+
+        settings: Any = config
+        settings.CACHE_DIR = str(Path(tempfile.gettempdir()) / "antinode-numba")
+        from .riccati import lanes
+    return lanes
+
+
+def _say(text: str) -> None:
+    sys.stderr.write(f"antinode: {text}\n")
+    sys.stderr.flush()

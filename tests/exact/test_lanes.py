@@ -1,0 +1,111 @@
+"""The compiled chain against the readable one, lane by lane, and against many digits."""
+
+import numpy as np
+import pytest
+
+from antinode.riccati import chain as readable
+from antinode.riccati import lanes
+from antinode.riccati.chain import Chain, omega2_scale
+from antinode.riccati.points import Point
+from antinode.riccati.segment import fundamental
+from chains import draw_case, draw_resonance
+from reference import certain_count
+
+ENDS = tuple(lanes.ENDS)
+
+
+def random_chain(rng, points):
+    """1 to 200 segments, steps up to 1e6 in EI, N from strong tension to far past buckling."""
+    n = int(np.exp(rng.uniform(0, np.log(200))))
+    h = np.exp(rng.uniform(-1.5, 1.5, n))
+    h *= 10 ** rng.uniform(-1, 2) / h.sum()
+    EI = 10 ** rng.uniform(2, 8) * 10 ** (rng.uniform(-3, 3, n) * rng.choice([0, 0.2, 1]))
+    m = 10 ** rng.uniform(0, 3) * 10 ** (rng.uniform(-2, 2, n) * rng.choice([0, 0.3, 1]))
+    N = rng.uniform(-1, 1, n) * 10 ** rng.uniform(-2, 2.5) * np.median(EI) / h.sum() ** 2
+    left, right = map(str, rng.choice(ENDS, 2))
+    at = rng.choice(np.arange(n + 1), size=min(n, 3), replace=False) if points else []
+    total = float(np.sum(m * h)), float(np.sum(h)), float(np.median(EI))
+    what = tuple(random_point(rng, int(node), 0 < node < n, *total) for node in sorted(at))
+    return Chain(h, m, EI, N, left, right, points=what)
+
+
+def random_point(rng, node, inner, M, L, EI):
+    mass = rng.choice([0, 0.3]) * M
+    return Point(
+        node,
+        mass=mass,
+        offset=rng.uniform(-0.1, 0.1) * L,
+        inertia=rng.choice([0, 0.01]) * M * L * L,
+        spring=rng.choice([0, 0, 1, 1e4, -5]) * EI / L**3,
+        rotational_spring=rng.choice([0, 0, 1, 1e4]) * EI / L,
+        holds=[(), (), (0,), (1,), (0, 1)][rng.integers(5)] if inner else (),
+        compliance=rng.choice([0, 0.1, 3]) * L / EI if inner else 0.0,
+        own_load=rng.choice([0, 5]) * EI / L**2 if mass else 0.0,
+    )
+
+
+@pytest.mark.parametrize("points", [False, True])
+@pytest.mark.parametrize("seed", range(3))
+def test_counts_and_signs_agree_with_the_readable_form(seed, points):
+    """100 chains of 17 lanes each: no difference."""
+    rng = np.random.default_rng([seed, points])
+    for _ in range(100):
+        chain = random_chain(rng, points)
+        size = omega2_scale(chain)
+        omega2 = size * np.concatenate(
+            [10 ** rng.uniform(-2, 5.5, 11), -(10 ** rng.uniform(-2, 5, 6))]
+        )
+        fast, slow = lanes.evaluate(chain, omega2), readable.evaluate(chain, omega2)
+        assert fast.below.tolist() == slow.below.tolist()
+        assert np.sign(fast.characteristic).tolist() == np.sign(slow.characteristic).tolist()
+
+
+def as_chain(case):
+    given = case.chain
+    h, EI, m, N = (np.array(column) for column in (given.h, given.EI, given.m, given.N))
+    return Chain(h, m, EI, N, given.left, given.right)
+
+
+@pytest.mark.parametrize("index", range(60))
+def test_counts_agree_with_many_digits(index):
+    """omega^2 in gaps between eigenvalues, below the first, and below zero."""
+    case = draw_case(515, index)
+    below = lanes.evaluate(as_chain(case), [case.omega2]).below[0]
+    assert below == certain_count(case.chain, case.omega2).count
+
+
+@pytest.mark.parametrize("index", range(20))
+def test_counts_at_resonances_of_parts(index):
+    """Where det A of a part vanishes to the last digit, and one step beside it."""
+    for case in draw_resonance(515, index):
+        below = lanes.evaluate(as_chain(case), [case.omega2]).below[0]
+        assert below == certain_count(case.chain, case.omega2).count
+
+
+def test_the_series_are_products_of_the_readable_ones():
+    """The minors of a transfer matrix, from g: ``2 G0 = g'^2 - g g''`` and so on."""
+    rng = np.random.default_rng(3)
+    limit = lanes._STEP
+    n = rng.uniform(-1, 1, 200) * limit**2 / 2
+    c = rng.uniform(-1, 1, 200) * (limit**2 / 2) ** 2
+    powers = (2 * c[:, None]) ** np.arange(lanes._IN_C), n[:, None] ** np.arange(lanes._IN_N)
+    G = np.einsum("mji,kj,ki->mk", lanes._T, *powers)
+    g, g1, g2, g3 = fundamental(np.ones(200), n, c)
+    assert np.allclose(2 * G[0], g1**2 - g * g2, rtol=3e-14, atol=0)
+    assert np.allclose(2 * G[1], g1 * g2 - g * g3, rtol=3e-14, atol=0)
+    assert np.allclose(G[3] + n * G[1], g2 * g3 - c * g * g1 + n * g1 * g2, rtol=3e-14, atol=0)
+
+
+def test_a_hopeless_omega2_is_refused():
+    one = np.ones(3)
+    with pytest.raises(FloatingPointError, match="out of reach"):
+        lanes.evaluate(Chain(one, one, one * 1e-9, one), [1e30])
+
+
+def test_bars_and_held_ends_go_the_readable_way():
+    one = np.ones(3)
+    bar = Chain(one, one, one, 0 * one, family="longitudinal")
+    assert lanes.evaluate(bar, [2.0]).below.tolist() == readable.evaluate(bar, [2.0]).below.tolist()
+    held = Chain(one, one, one, 0 * one, points=(Point(0, holds=(0,)),))
+    expected = readable.evaluate(held, [2.0, 50.0]).below.tolist()
+    assert lanes.evaluate(held, [2.0, 50.0]).below.tolist() == expected

@@ -1,0 +1,139 @@
+"""Batches: against single solves and closed forms, past buckling, failures, certificates."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import antinode as an
+from antinode.batch import REASONS
+
+ENDS = ("free", "clamped", "pinned", "sliding")
+
+
+def random_batch(rng, left, right, beams=12, segments=15, modes=5):
+    h = rng.uniform(0.5, 1.5, segments)
+    m = rng.uniform(1, 3, (beams, segments))
+    EI = 1e3 * rng.uniform(1, 3, (beams, segments))
+    N = rng.uniform(-1, 1, (beams, 1)) * rng.uniform(0, 4e3, (beams, segments)) / np.sum(h) ** 2
+    return an.BeamBatch(h, m, EI, N, an.Ends(left, right), modes)
+
+
+def single(batch, row):
+    x = np.concatenate([[0.0], np.cumsum(batch.length[0])])
+    tables = (batch.mass_per_length, batch.bending_stiffness, batch.axial_force)
+    m, EI, N = (table[row] for table in tables)
+    beam = an.Beam.from_stations(x, m, EI, None, N, ends=batch.ends)
+    return an.solve_modes(beam, batch.modes)
+
+
+@pytest.mark.parametrize("left", ENDS)
+@pytest.mark.parametrize("right", ENDS)
+def test_a_batch_is_its_single_solves(left, right):
+    batch = random_batch(np.random.default_rng(7), left, right)
+    result = an.solve_many(batch)
+    assert not result.reason.any()
+    for row in (0, 5, 11):
+        modes = [mode for mode in single(batch, row).modes if mode.number > 0]
+        expected = np.array([mode.omega2 for mode in modes[: batch.modes]])
+        assert result.omega2[row] == pytest.approx(expected, rel=1e-10)
+        assert result.counts[row].tolist() == [list(mode.counts) for mode in modes[: batch.modes]]
+
+
+def test_certificates_and_brackets():
+    result = an.solve_many(random_batch(np.random.default_rng(1), "free", "free", 300, 40, 8))
+    index = np.arange(2, 10)
+    assert np.all(result.counts == np.stack([index, index + 1], axis=1))
+    low, high = np.moveaxis(result.bracket_omega2, -1, 0)
+    assert np.all((low <= result.omega2) & (result.omega2 <= high))
+    assert np.all(high - low <= 1e-10 * high)
+    assert np.all(result.error_hz > 0)
+    assert np.all(result.error_hz < 2e-10 * result.frequencies_hz)
+
+
+def test_uniform_beams_have_their_closed_form():
+    """Free-free, lambda L = 4.73004074486, 7.85320462410, ... and omega^2 = lambda^4 EI/m."""
+    EI = np.array([[1.0], [16.0], [5.0]]) * np.ones((3, 20))
+    result = an.solve_many(an.BeamBatch(np.full(20, 0.05), np.ones(20), EI, modes=3))
+    roots = np.array([4.730040744862704, 7.853204624095838, 10.995607838001671])
+    assert result.omega2 == pytest.approx(EI[:, :1] * roots**4, rel=1e-10)
+
+
+def test_one_failure_touches_no_other():
+    h, m = np.full(10, 0.1), np.ones((5, 10))
+    EI = np.ones((5, 10))
+    m[1, 3], EI[3, 0] = np.nan, -1.0
+    EI[2] = 1e-9
+    N = np.zeros((5, 10))
+    N[2] = 1e20
+    result = an.solve_many(an.BeamBatch(h, m, EI, N))
+    assert [result.why(k) != "" for k in range(5)] == [False, True, True, True, False]
+    assert "positive" in result.why(1)
+    assert "reach" in result.why(2)
+    assert np.isnan(result.frequencies_hz[1:4]).all()
+    assert result.frequencies_hz[0] == pytest.approx(result.frequencies_hz[4], rel=1e-10)
+
+
+def test_past_buckling_is_said_with_the_negative_omega2():
+    """Pinned ends: omega_1^2 = pi^4 (1 - N/N_cr) with EI = m = L = 1, N_cr = pi^2."""
+    load = np.array([0.5, 0.99, 1.5, 3.0, 5.0, 0.1])
+    N = load[:, None] * np.pi**2 * np.ones(8)
+    one = np.ones(8)
+    result = an.solve_many(an.BeamBatch(one / 8, one, one, N, an.Ends("pinned", "pinned"), 3))
+    assert result.omega2[:, 0] == pytest.approx(np.pi**4 * (1 - load), rel=1e-9)
+    assert result.omega2[:, 1] == pytest.approx(np.pi**4 * (16 - 4 * load), rel=1e-9)
+    assert [result.why(k) for k in range(6)] == ["", "", REASONS[6], REASONS[6], REASONS[6], ""]
+    assert np.isnan(result.frequencies_hz[2, 0])
+    assert np.isfinite(result.frequencies_hz[2, 1:]).all()
+
+
+def test_any_number_of_modes():
+    one = np.ones(4)
+    for modes in (1, 9, 60):
+        result = an.solve_many(an.BeamBatch(one / 4, one, one, modes=modes))
+        n = np.arange(4, modes + 1)
+        assert result.omega2[0, 3:] ** 0.25 == pytest.approx((n + 0.5) * np.pi, rel=1e-5)
+
+
+def test_a_step_of_a_million_and_strong_compression():
+    rng = np.random.default_rng(5)
+    EI = 10.0 ** rng.uniform(0, 6, (40, 30))
+    batch = an.BeamBatch(np.full(30, 0.1), rng.uniform(1, 9, (40, 30)), EI, modes=4)
+    result = an.solve_many(batch)
+    assert not result.reason.any()
+    modes = [mode for mode in single(batch, 39).modes if mode.number > 0]
+    assert result.omega2[39] == pytest.approx([mode.omega2 for mode in modes[:4]], rel=1e-9)
+
+
+def test_shapes_that_do_not_go_together():
+    with pytest.raises(an.InputError, match="shapes"):
+        an.BeamBatch(np.ones(3), np.ones((2, 4)), np.ones((2, 4)))
+    with pytest.raises(an.InputError, match="modes is 0"):
+        an.BeamBatch(np.ones(3), np.ones((2, 3)), np.ones((2, 3)), modes=0)
+
+
+SOLVE = """
+import numpy as np, antinode as an
+one = np.ones((1, 4))
+an.solve_many(an.BeamBatch(one, one, one, modes=1))
+"""
+
+
+def test_the_first_compile_says_so_and_the_next_process_shares_it(tmp_path):
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    command = [sys.executable, "-c", SOLVE]
+    told = [
+        subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stderr
+        for _ in range(2)
+    ]
+    assert "compiled the batch kernel in" in told[0]
+    assert told[1] == ""
+
+
+def test_a_single_solve_does_not_import_numba():
+    code = "import sys, antinode as an, numpy as np; one = np.ones(3)\n"
+    code += "an.solve_modes(an.Beam.from_stations([0, 1, 2], one, one))\n"
+    code += "assert 'numba' not in sys.modules and 'antinode.riccati.lanes' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)
