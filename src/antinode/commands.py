@@ -13,7 +13,6 @@ from . import __version__
 from .errors import ComputationError, InputError
 from .examples import EXAMPLES, write_example
 from .options import (
-    BeamSet,
     BucklingFactor,
     Folder,
     IdentifySet,
@@ -82,11 +81,12 @@ def modes(
         _draw(plot_case(problem, result), output.plot)
     _write_modes(output, data, result)
     if not output.json:
-        from .printing import console, show_condition, show_modes
+        from .printing import console, show_condition, show_modes, show_warnings
 
         out = console()
         show_condition(out, problem)
-        show_modes(out, result, problem.loads.warnings)
+        show_modes(out, result)
+        show_warnings(out, problem.loads.warnings)
 
 
 @app.command(sort_key=4)
@@ -94,7 +94,7 @@ def beam(
     file: Path,
     /,
     *,
-    set_: BeamSet = (),
+    set_: Set = (),
     solver: Solver = _SOLVER,
     buckling: BucklingFactor = False,
     output: Output = _OUTPUT,

@@ -131,8 +131,9 @@ def mass(scene: Scene) -> Drawn:
     total = scene.common.vehicle.mass_distribution(0.0).moments(_length(scene))[0]
     figure = _distribution(scene, "mass_per_length", 1.0, "mass per length m [kg/m]", BLUE)
     return figure, (
-        f"Mass per length along the vehicle at t = 0 s, {total:,.0f} kg in all. It was found from "
-        "the frequencies of Tables 1 to 5; the paper's own curve is lost."
+        "Mass per length along the vehicle at t = 0 s, the ρA of eq. 29 to 39, "
+        f"{total:,.0f} kg in all. It was found from the frequencies of Tables 1 to 5; the paper's "
+        "own curve is lost."
     )
 
 
@@ -142,8 +143,8 @@ def axial_stiffness(scene: Scene) -> Drawn:
         scene, "axial_stiffness", 1e6, "axial stiffness EA [MN]", GREEN, along=True
     )
     return figure, (
-        "Axial stiffness EA along the vehicle; dashed, for it is an assumption: the tables hold "
-        "bending frequencies only, on which EA has no influence."
+        "Axial stiffness EA of eq. 34 along the vehicle; dashed, for it is an assumption: the "
+        "tables hold bending frequencies only, on which EA has no influence."
     )
 
 
@@ -151,9 +152,9 @@ def bending_stiffness(scene: Scene) -> Drawn:
     """Draw EI."""
     figure = _distribution(scene, "bending_stiffness", 1e3, "bending stiffness EI [kN m²]", RED)
     return figure, (
-        "Bending stiffness EI along the vehicle, found from the frequencies of Tables 1 to 5 "
-        "together with the mass. Frequencies fix the two up to a common factor, which the axial "
-        "force sets."
+        "Bending stiffness EI of eq. 39 along the vehicle, found from the frequencies of Tables 1 "
+        "to 5 together with the mass. Frequencies fix the two up to a common factor, which the "
+        "axial force sets."
     )
 
 
@@ -196,9 +197,9 @@ def mass_states(scene: Scene) -> Drawn:
     axes.set(xlabel=_X, ylabel="mass per length m [kg/m]", xlim=(0, body.length), ylim=(0, None))
     axes.legend(loc="upper right")
     return figure, (
-        "Mass per length at the start, t = 0 s, and in the steady state, t = 10 s. The second "
-        "rests on one row of the paper, the second of Table 5: six frequencies, so that only its "
-        "broad course can be told."
+        "Mass per length, the ρA of eq. 29 to 39, at the start, t = 0 s, and in the steady state, "
+        "t = 10 s. The second rests on one row of the paper, the second of Table 5: six "
+        "frequencies, so that only its broad course can be told."
     )
 
 
