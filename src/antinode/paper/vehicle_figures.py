@@ -29,7 +29,9 @@ def vehicle(scene: Scene) -> Drawn:
     """Draw the vehicle in its cavity, to scale, and the forces on it."""
     case = scene.common
     L, reach = case.vehicle.length, _reach(case)
-    left, right, low, high = -0.2 * L, 1.2 * L, -1.95 * reach, 1.75 * reach
+    left, right = -0.2 * L, 1.2 * L
+    low = (-2.5 if case.loads.F_fY < 0 else -1.95) * reach
+    high = (2.5 if case.loads.F_fY > 0 else 1.75) * reach
     figure, axes = sheet(0.62 + (WIDTH - 0.75) * (high - low) / (right - left))
     draw_vehicle(case, axes)
     axes.axhline(0, color=GREY, linewidth=0.6, linestyle=(0, (8, 3, 2, 3)), zorder=3)
@@ -92,7 +94,7 @@ def _axial_arrows(axes: Axes, case: Case, reach: float) -> None:
             top = fins.tip_radius * max(np.cos(fins.roll_angles))
             _arrow(axes, (load.position, top), (-far, 0), RED)
             text = f"$F_{{fX}}$ = {_kN(load.F_fX)}"
-            _label(axes, (load.position, 1.2 * reach), text, RED, va="bottom", ha="right")
+            _label(axes, (load.position - 0.1, 1.2 * reach), text, RED, va="bottom", ha="right")
     if loads.F_PX > 0:
         side = -1 if loads.F_PY >= 0 else 1
         R = float(case.vehicle.radius_at(loads.x_P))
@@ -291,8 +293,7 @@ def axial_forces(scene: Scene) -> Drawn:
             x, N = axial_force_curve(line.case)
             axes.plot(x, N, color=colour, linewidth=1.1, label=table.value(line.row))
         letter(axes, table.title, "abcd"[table.number - 1])
-        place = "lower right" if table.varies == "speed" else "upper left"
-        axes.legend(title=head, loc=place, ncols=2, columnspacing=1.0)
+        axes.legend(title=head, loc="best", ncols=2, columnspacing=1.0)
         zero_line(axes)
     for axes in panels[:, 0]:
         axes.set_ylabel("axial compression N [kN]")
