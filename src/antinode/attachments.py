@@ -94,6 +94,13 @@ def check_attachments(attachments: Iterable[Attachment], x: Array) -> None:
             raise InputError(f"{what} stands at an end; a joint needs beam on both sides")
 
 
+def name_of(item: Attachment) -> str:
+    """Return what an attachment is: a point mass, a spring, a support or a joint."""
+    if isinstance(item, Spring) and math.inf in (item.translational, item.rotational, item.axial):
+        return "support"
+    return _NAMES[type(item)]
+
+
 _SIGNED = ("x", "offset")
 _NAMES = {PointMass: "point mass", Spring: "spring", Joint: "joint"}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -18,8 +18,9 @@ from .errors import InputError
 from .explain import validate
 from .files import naming, read_tables
 from .limits import check_limits
+from .text import counted
 from .units import Frozen, Number
-from .vehicle import Column, MassTable, check_on_body
+from .vehicle import Column, MassTable, check_on_body, with_closed_stations
 
 Array = npt.NDArray[np.float64]
 COLUMNS = (
@@ -67,7 +68,9 @@ class BeamStations(Frozen):
         None, description="N [N], compression positive; zero by default"
     )
     radius_of_gyration: Annotated[Array, Column("m")] | None = Field(
-        None, description="of the cross-section [m], for the model column; default sqrt(EI/EA)"
+        None,
+        description="of the cross-section [m], for the effect of rotary inertia; default "
+        "sqrt(EI/EA)",
     )
 
     @model_validator(mode="after")
@@ -82,7 +85,7 @@ class BeamStations(Frozen):
 
 def _check_positions(x: Array) -> None:
     if len(x) < 2:
-        raise ValueError(f"x has {len(x)} rows; a table of stations needs at least two")
+        raise ValueError(f"x has {counted(len(x), 'row')}; a table of stations needs at least two")
     for i in np.flatnonzero(~np.isfinite(x))[:1]:
         raise ValueError(f"x, row {i + 1}, is {x[i]}; it must be a finite number: correct this row")
     for i in np.flatnonzero(np.diff(x) <= 0)[:1]:
@@ -95,7 +98,9 @@ def _check_positions(x: Array) -> None:
 
 def _check_column(name: str, column: Array, rows: int) -> None:
     if len(column) != rows:
-        raise ValueError(f"{name} has {len(column)} rows, but x has {rows}: give one value a row")
+        raise ValueError(
+            f"{name} has {counted(len(column), 'row')}, but x has {rows}: give one value a row"
+        )
     ok = np.isfinite(column) & ((column > 0) | (name == "axial_force"))
     for i in np.flatnonzero(~ok)[:1]:
         allowed = "a finite number" if name == "axial_force" else "greater than 0 and finite"
@@ -116,6 +121,11 @@ class BeamTable(AttachmentTables):
     masses: tuple[MassTable, ...] = Field(
         (), description="parts whose mass adds to the stations' (tank, engine, lining)"
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _close_table(cls, data: Any) -> Any:
+        return with_closed_stations(data)
 
     @model_validator(mode="after")
     def _check_masses(self) -> Self:

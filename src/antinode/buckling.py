@@ -14,6 +14,7 @@ import numpy as np
 
 from .beam import Beam
 from .errors import ComputationError
+from .limits import out_of_range_is_an_error
 from .modes import rigid_modes
 from .riccati.chain import Chain, count_below, omega2_scale
 
@@ -48,6 +49,7 @@ class Buckling:
         }
 
 
+@out_of_range_is_an_error()
 def buckling(beam: Beam, tolerance: float = 1e-6) -> Buckling | None:
     """Find the load factor at which the first supported bending mode diverges.
 
@@ -96,8 +98,14 @@ def _critical(chain: Chain, allowed: int) -> tuple[float, float] | None:
         return None
     low = 1e-3 / (largest * chain.nodes[-1] ** 2)
     most = _LARGEST / (largest * float(np.min(chain.length)) ** 2)
+    if not (np.isfinite(low) and np.isfinite(most) and low > 0):
+        raise OverflowError(f"the axial force is up to {largest:g} times the bending stiffness")
     while _diverge(chain, low) > allowed:
         low /= 1e3
+        if low == 0:
+            raise ComputationError(
+                "the beam diverges under any share of its axial force; check the unit of its forces"
+            )
     high = low * _GROWTH
     while _diverge(chain, high) <= allowed:
         low, high = high, high * _GROWTH

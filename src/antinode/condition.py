@@ -92,6 +92,9 @@ class OperatingCondition(Frozen):
         return self
 
 
+_AGREEMENT = 1e-3  # of sigma q, within which sigma, depth and cavity pressure may disagree
+
+
 class Cavitation(NamedTuple):
     """The state of cavitation: sigma, and what it implies where enough is known.
 
@@ -195,9 +198,10 @@ def _from_sigma_and_depth(
     )
     if p_c < 0:
         raise InputError(f"{both} of {p_c:.6g} Pa, which must be at least 0: leave out the depth")
-    if given is not None and abs(given - p_c) > 1e-3 * sigma * q:
-        say = "leave out one of the three"
-        raise InputError(f"{both} of {p_c:.6g} Pa, but cavity_pressure = {given:.6g} Pa: {say}")
+    allowed = _AGREEMENT * sigma * q
+    if given is not None and abs(given - p_c) > allowed:
+        say = f"they may differ by {allowed:.3g} Pa (0.1 % of sigma q): leave out one of the three"
+        raise InputError(f"{both} of {p_c:.6g} Pa, but cavity_pressure = {given:.6g} Pa; {say}")
     return Cavitation(sigma, p_c, depth)
 
 

@@ -5,10 +5,13 @@ Within the limits no intermediate result overflows, and a solution does not take
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 
 from .beam import Array, Beam
-from .errors import InputError
+from .errors import AntinodeError, ComputationError, InputError
 
 LENGTHS = 1e-9, 1e9
 """Smallest and largest length of a beam, largest position [m]."""
@@ -20,6 +23,21 @@ MOST_BUCKLED = 12.0
 """Modes that the compression may make diverge, about."""
 MOST_TENSION = 1e7
 """Largest tension times length squared over bending stiffness."""
+
+
+@contextmanager
+def out_of_range_is_an_error() -> Iterator[None]:
+    """Compute without numpy's warnings; say what an overflow or a division by zero means."""
+    with np.errstate(all="ignore"):
+        try:
+            yield
+        except AntinodeError:
+            raise
+        except (ArithmeticError, np.linalg.LinAlgError) as error:
+            raise ComputationError(
+                f"a number is too large or too small to compute with ({error}); check the units of "
+                "lengths, stiffness, mass and axial force"
+            ) from error
 
 
 def check_limits(beam: Beam) -> None:

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from .beam import Beam
 from .errors import ComputationError, InputError
+from .limits import out_of_range_is_an_error
 from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .riccati.chain import Chain, Family, omega2_scale
 from .riccati.literal import find_eigenvalues_tmm
@@ -48,6 +49,7 @@ class HasBeam(Protocol):
         ...
 
 
+@out_of_range_is_an_error()
 def solve_modes(
     problem: Beam | HasBeam,
     modes: int = 6,
@@ -107,6 +109,8 @@ def solve_modes(
         warnings += solved.warnings
     if unloaded:
         found = _compare_unloaded(beam, found, modes, tolerance)
+    if not all(np.isfinite(mode.omega2) for mode in found):
+        raise ComputationError("a frequency is no finite number; check the units of the input")
     warnings += _result_warnings(beam, found)
     return ModalResult(
         beam=beam,

@@ -22,16 +22,23 @@ def _whole(_: Any, tokens: Sequence[Any]) -> int:
         raise ValueError(f"{tokens[0].value[:40]!r} is no whole number") from None
 
 
-Set = Annotated[
-    tuple[str, ...],
-    Parameter(
+def _set(example: str) -> Parameter:
+    """Return the option that overrides keys of a file."""
+    return Parameter(
         name="--set",
-        help="Override a key of the file: --set condition.speed=100m/s, --set "
-        "vehicle.fins.0.thickness=20mm (repeatable; entries of a list count from 0).",
+        help=f"Override a key of the file: {example} (repeatable; entries of a list count from 0).",
         negative="",
         show_default=False,
         group=_input,
-    ),
+    )
+
+
+Set = Annotated[
+    tuple[str, ...], _set("--set condition.speed=100m/s, --set vehicle.fins.0.thickness=20mm")
+]
+BeamSet = Annotated[
+    tuple[str, ...],
+    _set("--set beam.ends.left=pinned, --set beam.stations.axial_force.0=100kN"),
 ]
 Json = Annotated[
     bool,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
@@ -15,8 +16,9 @@ from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
+from .attachments import name_of
 from .result import NOT_MODELLED, ModalResult, Mode
-from .text import one_line
+from .text import counted, one_line
 from .verify import ALLOWED
 
 if TYPE_CHECKING:
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
 
 _WIDTH = 104
 _LONGEST_NAME = 80
+_MOST_LISTED = 4  # attachments that are shown one by one
 
 
 def console() -> Console:
@@ -56,12 +59,19 @@ def _row(table: Table, *cells: str) -> None:
     table.add_row(*(Text(cell) for cell in cells))
 
 
-def show_modes(out: Console, result: ModalResult) -> None:
-    """Print the table of modes, then warnings and what the model leaves out."""
+def show_modes(out: Console, result: ModalResult, warnings: Sequence[str] = ()) -> None:
+    """Print the table of modes, then all warnings and what the model leaves out."""
     out.print(modes_table(result, out))
-    show_warnings(out, result.warnings)
+    if result.method == "tmm":
+        out.print(f"[dim]{_BY_TMM}[/dim]", highlight=False)
+    show_warnings(out, [*warnings, *result.warnings])
     out.print(f"[dim]Not in the model: {'; '.join(NOT_MODELLED)}.[/dim]", highlight=False)
 
+
+_BY_TMM = (
+    "By the transfer matrix scan, for comparison: no error bound, and what the axial force does to "
+    "each mode is left to the default method."
+)
 
 _HEADINGS = {
     "mode": "mode",
@@ -98,13 +108,16 @@ def _modes_table(result: ModalResult, headings: Sequence[str], brief: bool) -> T
         if family and mode.family != family:
             table.add_section()
         family = mode.family
-        _row(table, *_cells(mode, brief)[: len(headings)])
+        cells = _cells(mode, brief)
+        if result.method == "tmm":
+            cells = (*cells[:3], "", "", *cells[5:])
+        _row(table, *cells[: len(headings)])
     return table
 
 
 def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
-    name = mode.name if mode.number else mode.name.replace("rigid", mode.family)
-    name = name.replace("longitudinal translation", "longitudinal rigid")
+    lateral = mode.number or mode.family == "bending"
+    name = mode.name if lateral else "longitudinal rigid"
     if mode.omega2 < 0:
         growth = f"{mode.growth_rate_per_s:.5g} /s"
         error = f"{mode.error_growth_rate_per_s:.1e}"
@@ -244,15 +257,26 @@ def show_beam(out: Console, beam: Beam) -> None:
     e = beam.ends
     out.print(
         f"[bold]{_plain(beam.name)}[/bold]  {beam.length:.5g} m, {beam.mass:.5g} kg, "
-        f"{len(beam.x) - 1} intervals ({beam.interpolation}), {e.left} - {e.right}",
+        f"{counted(len(beam.x) - 1, 'interval')} ({beam.interpolation}), {e.left} - {e.right}",
         highlight=False,
     )
+    if beam.attachments:
+        out.print(f"attached: {_attached(beam)}", highlight=False)
     every = np.arange(len(beam.x) - 1)
     N = np.stack([beam.axial_force_at(every, np.full(len(every), t)) for t in (0.0, 1.0)])
     force = "no axial force"
     if not beam.is_unloaded:
         force = f"axial force N from {_kN(N.min())} to {_kN(N.max())} kN (compression positive)"
     out.print(force, highlight=False)
+
+
+def _attached(beam: Beam) -> str:
+    """Return what is attached, each with its station, or how many there are of each kind."""
+    if len(beam.attachments) <= _MOST_LISTED:
+        return ", ".join(f"{name_of(item)} at {item.x:.5g} m" for item in beam.attachments)
+    kinds = Counter(map(name_of, beam.attachments))
+    plurals = {"point mass": "point masses"}
+    return ", ".join(counted(n, kind, plurals.get(kind, "")) for kind, n in kinds.items())
 
 
 def show_buckling(out: Console, critical: Buckling | None) -> None:

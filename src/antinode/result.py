@@ -34,7 +34,7 @@ COMPONENTS: dict[str, tuple[tuple[str, str, str], ...]] = {
 """Symbol, unit and meaning of the state components of each family (equation 56)."""
 
 NOT_MODELLED = (
-    "shear deformation and rotary inertia (estimated to first order in the model column)",
+    "shear deformation and rotary inertia (their effect is estimated to first order)",
     "added mass of wetted parts",
     "damping",
     "shell modes of the wall",

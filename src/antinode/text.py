@@ -35,6 +35,11 @@ def one_line(text: str, most: int) -> str:
     return f"{text[: most - most // 4 - 3]}...{text[len(text) - most // 4 :]}"
 
 
+def counted(number: int, noun: str, plural: str = "") -> str:
+    """Write a number with its noun: 1 interval, 2 intervals, 2 point masses."""
+    return f"{number} {noun if number == 1 else plural or noun + 's'}"
+
+
 def nearest(name: str, allowed: Sequence[str]) -> str:
     """Suggest the allowed name that is nearest to an unknown one, or list them all."""
     close = difflib.get_close_matches(name[:MOST_CHARACTERS], allowed, n=1)

@@ -25,6 +25,7 @@ from pydantic import (
 )
 from pydantic_core import core_schema
 
+from antinode.text import counted
 from antinode.units import Angle, Frozen, Length, Number, to_si
 
 Array = NDArray[np.float64]
@@ -133,7 +134,9 @@ class Column:
 
 def _increasing(x: Array) -> None:
     if len(x) < 2:
-        raise ValueError(f"x: received {len(x)} rows; a table of stations needs at least two")
+        raise ValueError(
+            f"x: received {counted(len(x), 'row')}; a table of stations needs at least two"
+        )
     _finite("x", x)
     for i in np.flatnonzero(np.diff(x) <= 0)[:1]:
         rows = f"x: rows {i + 1} and {i + 2}: received {x[i]:.10g}, then {x[i + 1]:.10g} m"
@@ -189,7 +192,7 @@ class Stations(Frozen):
         _increasing(self.x)
         for name, column, unit in self.columns():
             if len(column) != len(self.x):
-                rows = f"{name}: received {len(column)} rows, but x has {len(self.x)}"
+                rows = f"{name}: received {counted(len(column), 'row')}, but x has {len(self.x)}"
                 raise ValueError(f"{rows}: give one value for each station")
             _finite(name, column)
             if name == "radius" and column[0] == 0:
@@ -378,6 +381,24 @@ class Section:
     wall: Array | None
 
 
+def with_closed_stations(table: Any) -> Any:
+    """Return a table whose stepped columns may have one value for each interval, with the last row.
+
+    The last row of a stepped table is not used: where every column but x is one shorter than x, its
+    last value is repeated.
+    """
+    stations = table.get("stations") if isinstance(table, dict) else None
+    if not isinstance(stations, dict) or table.get("interpolation", "step") != "step":
+        return table
+    if not all(isinstance(column, list) for column in stations.values()) or "x" not in stations:
+        return table
+    intervals = len(stations["x"]) - 1
+    if intervals < 1 or {len(c) for key, c in stations.items() if key != "x"} != {intervals}:
+        return table
+    closed = {key: c if key == "x" else [*c, c[-1]] for key, c in stations.items()}
+    return {**table, "stations": closed}
+
+
 class Vehicle(Frozen):
     """Stations, cavitator and fins; everything that does not change with the condition."""
 
@@ -391,6 +412,11 @@ class Vehicle(Frozen):
     masses: tuple[MassTable, ...] = Field(
         default=(), description="parts whose mass adds to the stations' (tank, engine, payload)"
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _close_table(cls, data: Any) -> Any:
+        return with_closed_stations(data)
 
     @model_validator(mode="after")
     def _check_nose(self) -> Self:

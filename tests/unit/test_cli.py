@@ -161,7 +161,7 @@ WRONG_BEAMS = {
     "unsorted": ("x=[0, 2, 1]", ["x must increase: row 2 has 2 m and row 3 1 m", "sort"]),
     "duplicate": ("x=[0, 1, 1]", ["x must increase", "duplicate"]),
     "nan": ("x=[0, nan, 1]", ["x, row 2, is nan", "finite"]),
-    "one row": ("x=[0]", ["x has 1 rows", "at least two"]),
+    "one row": ("x=[0]", ["x has 1 row;", "at least two"]),
     "empty": ("x=[]", ["x has 0 rows"]),
     "mass": ("mass_per_length=[1, 0, 1]", ["mass_per_length, row 2, is 0", "greater than 0"]),
     "stiffness": ("bending_stiffness=[1, -1, 1]", ["bending_stiffness, row 2, is -1"]),
@@ -564,11 +564,35 @@ class TestTerminal:
         lines = run("modes", CASE).out.splitlines()
         for words in (
             "mode kind f [Hz] +- [Hz] by N by shear",
-            "bending translation rigid 0 exact",
+            "rigid translation rigid 0 exact",
             "longitudinal rigid rigid 0 exact",
         ):
             assert words in [" ".join(line.split()) for line in lines]
-        assert any(line.split()[:3] == ["bending", "rotation", "divergent"] for line in lines)
+        assert any(line.split()[:3] == ["rigid", "rotation", "divergent"] for line in lines)
+
+    def test_warnings_of_loads_come_first_and_what_is_left_out_last(self, starter):
+        out = run("modes", CASE, "--set", "condition.cavitation_number=0.025").out
+        places = [
+            out.index(words) for words in ("cavity closes", "omega^2 < 0", "Not in the model")
+        ]
+        assert places == sorted(places)
+
+    def test_the_scan_shows_no_error_and_no_shift(self, mast):
+        out = run("beam", "beam.toml", "--method", "tmm", "--modes", "1").out
+        row = next(line.split() for line in out.splitlines() if "bending 1" in line)
+        assert row == ["bending", "1", "elastic", "1.747433", "-0.291", "%"]
+        assert "no error bound" in out
+
+    def test_a_beam_says_what_is_attached(self, tmp_path, monkeypatch):
+        monkeypatch.chdir(tmp_path)
+        run("init", "--example", "tower")
+        one = "beam.point_masses=[{x=%s, mass=1}]"
+        many = "beam.point_masses=[" + ", ".join(f"{{x={k}, mass=1}}" for k in range(5)) + "]"
+        texts = [run("beam", "beam.toml", "--set", text).out for text in (one % 40, many)]
+        lines = [line for text in texts for line in text.splitlines() if "attached" in line]
+        assert lines == ["attached: point mass at 40 m", "attached: 5 point masses"]
+        assert ", 2 intervals (" in run("beam", "beam.toml", "--set", one % 40).out
+        assert ", 1 interval (" in run("beam", "beam.toml").out
 
     def test_headings_keep_their_units(self, starter):
         text = " ".join(run("loads", CASE).out.split())

@@ -9,6 +9,7 @@ import pytest
 
 from antinode import InputError, load_beam, load_case
 from antinode.beam import Beam
+from antinode.beam_file import BeamFile
 from antinode.case import Case
 from antinode.examples import EXAMPLES, write_example
 from antinode.explain import key_text, validate
@@ -17,6 +18,7 @@ from antinode.limits import check_limits
 from antinode.override import override
 from antinode.text import nearest, one_line, short
 from antinode.units import Frozen
+from antinode.vehicle import Vehicle
 
 COLUMNS = ("x", "mass_per_length", "bending_stiffness")
 TABLE = "x [mm],mass_per_length [kg/m],bending_stiffness [kN m^2]\n0,1,2\n500,3,4\n"
@@ -330,3 +332,33 @@ def test_too_many_inline_rows(tmp_path):
     file = csv_file(tmp_path, f"[beam]\nstations = {{ x = [{rows}] }}\n", "beam.toml")
     with pytest.raises(InputError, match=f"beam.stations.x has {MOST_ROWS + 1} rows"):
         load_beam(file)
+
+
+STEPPED = {"x": [0, 1, 3], "mass_per_length": [5, "7 kg/m"], "bending_stiffness": ["1 kN m^2", 9]}
+
+
+class TestStepsWithoutTheClosingRow:
+    def test_the_last_row_is_repeated(self):
+        file = validate(BeamFile, {"beam": {"stations": STEPPED}}, "here")
+        assert file.table.stations.mass_per_length.tolist() == [5, 7, 7]
+        assert file.beam().mass == 5 + 2 * 7
+        assert len(STEPPED["mass_per_length"]) == 2
+
+    @pytest.mark.parametrize(
+        "change",
+        [
+            {"interpolation": "linear"},
+            {"stations": {**STEPPED, "mass_per_length": [5, 7, 7]}},
+            {"stations": {**STEPPED, "x": [0, 1, 3, 4]}},
+        ],
+    )
+    def test_all_columns_leave_it_out_or_none(self, change):
+        with pytest.raises(InputError, match="2 rows, but x has"):
+            validate(BeamFile, {"beam": {"stations": STEPPED, **change}}, "here")
+
+    def test_a_vehicle_too(self):
+        columns = ("mass_per_length", "mass_per_length:burnt", "bending_stiffness",
+                   "axial_stiffness", "radius")  # fmt: skip
+        table = {"stations": {"x": [0, 2], **{name: [0.1] for name in columns}}}
+        vehicle = Vehicle.model_validate({**table, "cavitator": {"diameter": 0.1}})
+        assert [len(column) for _, column, _ in vehicle.stations.columns()] == [2] * 5

@@ -40,9 +40,9 @@ RICCATI = (
     "riccati.shapes",
     "riccati.literal",
 )
-BEAM = ("attachments", "beam", "axial")
+BEAM = ("attachments", "beam", "limits", "axial")
 MODES = ("result", "modes", "batch", "buckling")
-READING = ("explain", "override", "files", "limits")
+READING = ("explain", "override", "files")
 INPUTS = ("attachment_tables", "beam_file", "case", "statics")
 OUTPUTS = ("dataset", "loads_table", "figures", "verify", "printing", "schema")
 PAPER = (

@@ -7,7 +7,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from antinode import Beam, Ends, InputError, solve_modes
+from antinode import Beam, ComputationError, Ends, InputError, solve_modes
+from antinode.buckling import buckling
 from antinode.dataset import to_json
 
 ENDS = ("free", "clamped", "pinned", "sliding")
@@ -161,3 +162,17 @@ def test_bad_beams(change, message):
     good = {"x": [0.0, 1.0, 2.0], "mass_per_length": [1.0] * 3, "bending_stiffness": [1.0] * 3}
     with pytest.raises(InputError, match=message):
         Beam.from_stations(**{**good, **change})
+
+
+@pytest.mark.parametrize("EI", [1e-300, 1.0, 1e300])
+@pytest.mark.parametrize("N", [0.0, 1e300, -1e300])
+@pytest.mark.parametrize("length", [1e-200, 1.0, 1e100, 1e300])
+@pytest.mark.parametrize("solve", [solve_modes, buckling])
+def test_absurd_numbers_give_a_result_or_an_error_but_no_warning(solve, length, N, EI):
+    beam = Beam.from_stations([0, length], 1.0, EI, EI, N, ends=Ends("pinned", "pinned"))
+    try:
+        found = solve(beam)
+    except (ComputationError, InputError):
+        return
+    modes = found.modes if found and solve is solve_modes else []
+    assert all(math.isfinite(mode.omega2) for mode in modes)

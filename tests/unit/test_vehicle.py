@@ -38,7 +38,7 @@ class TestStationsRefuse:
             ({"x": [0, 2, 1]}, ["x: rows 2 and 3", "received 2, then 1 m", "sort the rows"]),
             ({"x": [0, 1, 1]}, ["x: rows 2 and 3", "received 1, then 1 m", "duplicate"]),
             ({"x": [0, math.nan, 2]}, ["x, row 2", "nan", "finite"]),
-            ({"x": [0]}, ["x: received 1 rows", "at least two"]),
+            ({"x": [0]}, ["x: received 1 row;", "at least two"]),
             ({"x": []}, ["x: received 0 rows", "at least two"]),
             ({"mass_per_length": [1, 0, 1]}, ["mass_per_length, row 2", "received 0", "kg/m"]),
             ({"mass_per_length:burnt": [1, 1, -2]}, ["mass_per_length:burnt, row 3", "-2"]),
