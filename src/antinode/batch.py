@@ -172,7 +172,7 @@ def solve_many(batch: BeamBatch) -> BatchResult:
     ends = np.array([kernel.ENDS[batch.ends.left], kernel.ENDS[batch.ends.right]])
     reason, evaluations = kernel.solve_chains(
         *(batch.length, batch.mass_per_length, batch.bending_stiffness, batch.axial_force),
-        *(ends, _rigid_modes(batch.ends), _WIDTH, omega2, low, high, counts, rounding),
+        *(ends, _rigid_modes(batch.ends), _WIDTH, (omega2, low, high, counts, rounding)),
     )
     for row in np.flatnonzero(reason == _CLUSTERED):
         reason[row] = _part(batch, int(row), omega2, low, high, counts)
@@ -242,17 +242,16 @@ def _prepare() -> ModuleType:
     notice.start()
     try:
         lanes = _import_kernel()
-        one, out = np.ones((1, 1)), np.zeros((1, 1))
-        for array in (one, out):
-            array.flags.writeable = array is out
+        one = np.ones((1, 1))
+        one.flags.writeable = False
+        out = [np.zeros((1, 1)) for _ in range(4)]
+        counts = np.zeros((1, 1, 2), dtype=np.int64)
         lanes.solve_chains(
-            *(one, one, one, one, np.array([0, 0]), 2, _WIDTH),
-            *(out, out.copy(), out.copy(), np.zeros((1, 1, 2), dtype=np.int64), out.copy()),
+            *(one, one, one, one, np.array([0, 0]), 2, _WIDTH, (*out[:3], counts, out[3]))
         )
     finally:
         notice.cancel()
-    misses: Any = lanes.solve_chains.stats.cache_misses
-    if misses:
+    if lanes.compiled_here():
         _say(f"compiled the batch kernel in {time.perf_counter() - start:.1f} s")
     return lanes
 

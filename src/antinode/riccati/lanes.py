@@ -44,6 +44,7 @@ _IN_C, _IN_N = 4, 9  # terms of the series in c and in n
 _ROWS = 24  # of the table of pieces: 16 coefficients, n, 2c/omega^2, 4 ratios of units, h, 1/EI
 _RESCALE = 128  # pieces after which the lanes are scaled
 _HUGE = 4e6  # pieces
+_SMALL = 1e-60  # of the minors, or 1 over it: what lies between is not scaled
 
 
 def _series() -> Array:
@@ -74,7 +75,11 @@ _wide_vectors: Any = intrinsic(_wide)
 
 
 _compiled = numba.njit(
-    cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"}
+    cache=True,
+    nogil=True,
+    error_model="numpy",
+    fastmath={"contract", "nsz", "arcp"},
+    _nrt=False,  # nothing is allocated inside, and no array's references are counted
 )
 
 
@@ -170,11 +175,13 @@ def _advance(table, state, first, last):
 
 @_compiled
 def _rescale(state):
-    """Take a power of two out of every lane."""
+    """Take a power of two out of a lane that grows large or small."""
     for lane in range(LANES):
         size = 0.0
         for row in range(5):
             size = max(size, abs(state[8 * row + lane]))
+        if _SMALL < size < 1.0 / _SMALL:
+            continue
         power = math.frexp(size)[1]
         for row in range(5):
             state[8 * row + lane] = math.ldexp(state[8 * row + lane], -power)
@@ -213,7 +220,10 @@ def _stretch(table, state, first, last, sign):
     """Carry the lanes from one point to the next; at a held node `sign` is compared."""
     if first == last:
         return
-    if np.any(sign != 0.0):
+    held = False
+    for lane in range(LANES):
+        held = held or sign[lane] != 0.0
+    if held:
         _advance(table, state, first, first + 1)
         for lane in range(LANES):
             state[40 + lane] += 1.0 if sign[lane] * state[lane] < 0.0 else 0.0
@@ -279,9 +289,10 @@ def _finish(state, right, value):
 
 
 @_compiled
-def _sweep(table, starts, marks, points, left, right, state, value):
+def _sweep(table, starts, marks, points, left, right, state, sign, value):
     """Pass the chain from left to right."""
-    sign = np.full(LANES, 1.0 if left > 0 else 0.0)
+    for lane in range(LANES):
+        sign[lane] = 1.0 if left > 0 else 0.0
     _start(state, left)
     first, n = 0, len(starts) - 1
     for node in range(n + 1):
@@ -296,24 +307,15 @@ def _sweep(table, starts, marks, points, left, right, state, value):
 
 
 @_compiled
-def _evaluate(h, m, EI, N, marks, points, left, right, omega2, count, value, power):
-    """Evaluate a dimensionless chain at any number of omega^2; return False if out of reach."""
-    starts = np.empty(len(h) + 1, np.int64)
-    pieces = _pieces(h, m, EI, N, np.max(np.abs(omega2)), starts)
-    if pieces < 0:
-        return False
-    table = np.empty((_ROWS, pieces))
-    _fill(h, m, EI, N, starts, marks, table)
-    state, found = np.zeros(8 * LANES), np.zeros(LANES)
+def _evaluate(table, starts, marks, points, left, right, omega2, state, sign, found, count, value):
+    """Evaluate a chain at any number of omega^2."""
     for first in range(0, len(omega2), LANES):
         for lane in range(LANES):
             state[48 + lane] = omega2[min(first + lane, len(omega2) - 1)]
-        _sweep(table, starts, marks, points, left, right, state, found)
+        _sweep(table, starts, marks, points, left, right, state, sign, found)
         for lane in range(min(LANES, len(omega2) - first)):
             count[first + lane] = int(state[40 + lane])
             value[first + lane] = found[lane]
-            power[first + lane] = state[56 + lane]
-    return True
 
 
 def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
@@ -337,15 +339,19 @@ def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
         return evaluate_readable(chain, lanes)
     L, EI0, m0 = _units(chain)
     marks, points = _point_table(chain, L, EI0, m0)
-    count, value = np.empty(len(lanes), np.int64), np.empty(len(lanes))
-    reached = _evaluate(
-        *(chain.length / L, chain.mass / m0, chain.stiffness / EI0),
-        *(chain.axial_force * (L * L / EI0), marks, points, ENDS[chain.left], ENDS[chain.right]),
-        *(lanes * (m0 * L**4 / EI0), count, value, np.empty(len(lanes))),
-    )
-    if not reached:
+    own = chain.length / L, chain.mass / m0, chain.stiffness / EI0, chain.axial_force * L * L / EI0
+    scaled, starts = lanes * (m0 * L**4 / EI0), np.empty(n + 1, np.int64)
+    pieces = _pieces(*own, np.max(np.abs(scaled)), starts)
+    if pieces < 0:
         worst = float(np.max(np.abs(lanes)))
         raise FloatingPointError(f"omega^2 = {worst:g} rad^2/s^2 is out of reach for this chain")
+    table = np.empty((_ROWS, pieces))
+    _fill(*own, starts, marks, table)
+    count, value = np.empty(len(lanes), np.int64), np.empty(len(lanes))
+    _evaluate(
+        *(table, starts, marks, points, ENDS[chain.left], ENDS[chain.right], scaled),
+        *(np.zeros(8 * LANES), np.zeros(LANES), np.zeros(LANES), count, value),
+    )
     return Evaluation(count, value)
 
 
@@ -378,6 +384,7 @@ def _point_table(chain: Chain, L: float, EI0: float, m0: float) -> tuple[Integer
 # nearly linear: it has no poles, and no other zero near.
 
 CERTIFIED, OUT_OF_REACH, NOT_BRACKETED, NOT_FINITE, INVALID, CLUSTERED = 0, 1, 2, 3, 4, 5
+TABLE_TOO_SMALL = -1
 
 _MOST_SAMPLES = 4096
 _MOST_PASSES = 100
@@ -418,19 +425,6 @@ def _first_samples(h, m, EI, N, number, samples):
 
 
 @_compiled
-def _rayleigh(h, m, EI, N, shapes, guess):
-    """Guess the roots from the integrals of a like chain's modes (Rayleigh's quotient)."""
-    for k in range(len(guess)):
-        strain, work, mass = 0.0, 0.0, 0.0
-        for i in range(len(h)):
-            size = h[i]
-            strain += shapes[0, k, i] * EI[i] / (size * size * size)
-            work += shapes[1, k, i] * N[i] / size
-            mass += shapes[2, k, i] * m[i] * size
-        guess[k] = shapes[3, k, 0] * (strain - work) / mass
-
-
-@_compiled
 def _others(x, root, k, rigid):
     """Return the product of (x - root) over the neighbouring roots and the rigid ones."""
     product = 1.0
@@ -444,27 +438,40 @@ def _others(x, root, k, rigid):
 
 
 @_compiled
-def _nearest(k, index, samples, root, low, high, near):
+def _nearest(k, index, samples, total, root, near):
     """Collect up to four samples next to root k that lie between its neighbours."""
     found = 0
-    distance = np.empty(4)
     left = 0.0 if root[0] > 0.0 else -np.inf
     if k > 0:
         left = root[k - 1]
     right = root[k + 1] if k + 1 < len(root) else np.inf
-    for i in range(low, high):
+    for i in range(total):
         x, count = samples[0, i], samples[1, i]
         if x <= left or x >= right or count < index - 1 or count > index:
             continue
         away = abs(x - root[k])
-        if found == 4 and away >= distance[3]:
+        if found == 4 and away >= abs(samples[0, near[3]] - root[k]):
             continue
         place = min(found, 3)
-        while place > 0 and distance[place - 1] > away:
-            near[place], distance[place] = near[place - 1], distance[place - 1]
+        while place > 0 and abs(samples[0, near[place - 1]] - root[k]) > away:
+            near[place] = near[place - 1]
             place -= 1
-        near[place], distance[place] = i, away
+        near[place] = i
         found = min(found + 1, 4)
+    return found
+
+
+@_compiled
+def _latest(k, index, samples, root, own, near):
+    """Collect the samples that root k asked for last, as `_nearest` would."""
+    found = 0
+    left = root[k - 1] if k > 0 else (0.0 if root[0] > 0.0 else -np.inf)
+    right = root[k + 1] if k + 1 < len(root) else np.inf
+    for i in range(4):
+        j = own[k, i]
+        if j >= 0 and left < samples[0, j] < right and index - 1 <= samples[1, j] <= index:
+            near[found] = j
+            found += 1
     return found
 
 
@@ -482,9 +489,11 @@ def _interpolate(x, y, number):
 
 
 @_compiled
-def _predict(k, index, samples, total, root, rigid, slope, near, x, y):
+def _predict(k, index, samples, total, root, rigid, slope, own, near, x, y):
     """Return a root from the samples next to it, and its likely error (inf: no prediction)."""
-    number = _nearest(k, index, samples, root, 0, total, near)
+    number = _latest(k, index, samples, root, own, near)
+    if number < 2 and (slope == 0.0 or number == 0):
+        number = _nearest(k, index, samples, total, root, near)
     if number == 0:
         return root[k], np.inf
     for i in range(number):
@@ -511,7 +520,7 @@ def _slopes(samples, total, root, below, slope, near):
     """Set the divided function's slope at every root, for the next chain's first step."""
     for k in range(len(root)):
         slope[k] = 0.0
-        number = _nearest(k, below + k + 1, samples, root, 0, total, near)
+        number = _nearest(k, below + k + 1, samples, total, root, near)
         for i in range(number):
             j = near[i]
             x = samples[0, j]
@@ -523,7 +532,9 @@ def _slopes(samples, total, root, below, slope, near):
 
 
 @_compiled
-def _choose(k, index, samples, total, lo, hi, root, rigid, slope, width, stuck, near, x, y, wanted):
+def _choose(
+    k, index, samples, total, lo, hi, root, rigid, slope, width, stuck, own, near, x, y, wanted
+):
     """Return how many samples root k asks for next (0: certified), and set them."""
     bounded = math.isfinite(lo) and math.isfinite(hi)
     if bounded and hi - lo <= width * max(abs(lo), abs(hi)):
@@ -535,7 +546,7 @@ def _choose(k, index, samples, total, lo, hi, root, rigid, slope, width, stuck, 
         else:
             wanted[0] = (lo + hi) / 2
         return 1
-    guess, error = _predict(k, index, samples, total, root, rigid, slope, near, x, y)
+    guess, error = _predict(k, index, samples, total, root, rigid, slope, own, near, x, y)
     inside = lo < guess < hi and math.isfinite(error)
     if not inside:
         if math.isinf(lo):
@@ -622,73 +633,86 @@ def _solve(
     """Bracket and certify the eigenvalues below + 1 ... below + len(root) of one chain.
 
     `root` holds guesses if `warm`, `slope` those of `_slopes`; both are set for the next chain.
-    Returns (reason, number of samples, the table).
+    Returns the reason, and the number of samples, or that of the table's columns needed.
     """
-    samples, asked, starts, marks, points, state, value, before, stuck, at, near, x, y, wanted = (
-        work
-    )
-    low[:], high[:], before[:], stuck[:] = -np.inf, np.inf, np.inf, 0
+    samples, asked, owner, starts, marks, points, state, sign, value, before = work[:10]
+    stuck, at, own, near, x, y, wanted = work[10:]
     total, reach, number = 0, 0.0, len(root)
-    if warm:
-        asked[:number] = root
-    else:
-        slope[:] = 0.0
+    for k in range(number):
+        asked[k], owner[k], before[k], stuck[k] = root[k], k, np.inf, 0
+        low[k], high[k] = -np.inf, np.inf
+        own[k, 0] = own[k, 1] = own[k, 2] = own[k, 3] = -1
+    if not warm:
         number = _first_samples(h, m, EI, N, 2 * (below + number + 1), asked)
+        for k in range(number):
+            owner[k] = -1
+        for k in range(len(root)):
+            slope[k] = 0.0
     for turn in range(_MOST_PASSES):
         if total + number > _MOST_SAMPLES:
             break
-        largest = np.max(np.abs(asked[:number]))
+        largest = 0.0
+        for k in range(number):
+            largest = max(largest, abs(asked[k]))
         if largest > reach:
             reach = 1.2 * largest
             pieces = _pieces(h, m, EI, N, reach, starts)
             if pieces < 0:
-                return OUT_OF_REACH, total, table
+                return OUT_OF_REACH, total
             if pieces > table.shape[1]:
-                table = np.empty((_ROWS, pieces + pieces // 2))
+                return TABLE_TOO_SMALL, pieces
             _fill(h, m, EI, N, starts, marks, table)
         for first in range(0, number, LANES):
             for lane in range(LANES):
                 state[48 + lane] = asked[min(first + lane, number - 1)]
-            _sweep(table, starts, marks, points, ends[0], ends[1], state, value)
+            _sweep(table, starts, marks, points, ends[0], ends[1], state, sign, value)
             for lane in range(min(LANES, number - first)):
                 if not math.isfinite(value[lane]):
-                    return NOT_FINITE, total, table
+                    return NOT_FINITE, total
                 _take_sample(*(lane, state, value, samples, total, below, low, high, counts, at))
+                k = owner[first + lane]
+                if k >= 0:
+                    own[k, 3], own[k, 2], own[k, 1] = own[k, 2], own[k, 1], own[k, 0]
+                    own[k, 0] = total
                 total += 1
         _watch(low, high, before, stuck, root, turn == 0 and not warm)
         number = 0
         for k in range(len(root)):
             more = _choose(
                 *(k, below + k + 1, samples, total, low[k], high[k], root, below, slope[k]),
-                *(width, stuck, near, x, y, wanted),
+                *(width, stuck, own, near, x, y, wanted),
             )
             for i in range(more):
-                asked[number] = wanted[i]
+                asked[number], owner[number] = wanted[i], k
                 number += 1
         if number == 0:
             _slopes(samples, total, root, below, slope, near)
-            force, sure = np.mean(np.abs(N)), True
+            force, sure = 0.0, True
+            for i in range(len(h)):
+                force += abs(N[i]) * h[i]
             for k in range(len(root)):
                 rounding[k] = _rounding(samples, at[k], ends[1], force)
                 sure = sure and rounding[k] <= _SURE * width * abs(root[k])
-            return CERTIFIED if sure else CLUSTERED, total, table
-    return NOT_BRACKETED, total, table
+            return CERTIFIED if sure else CLUSTERED, total
+    return NOT_BRACKETED, total
 
 
-@_compiled
-def _workspace(n, roots):
+def _workspace(n: int, roots: int) -> tuple[Array | Integers, ...]:
     """Return the arrays that `_solve` writes into."""
     return (
         np.empty((9, _MOST_SAMPLES)),
         np.empty(_MOST_SAMPLES),
+        np.zeros(_MOST_SAMPLES, np.int64),
         np.empty(n + 1, np.int64),
         np.full(n + 1, -1),
         np.empty((0, 8)),
         np.zeros(8 * LANES),
         np.zeros(LANES),
+        np.zeros(LANES),
         np.zeros(roots),
         np.zeros(roots, np.int64),
         np.zeros((roots, 2), np.int64),
+        np.zeros((roots, 4), np.int64),
         np.zeros(4, np.int64),
         np.zeros(4),
         np.zeros(4),
@@ -707,44 +731,99 @@ def _is_valid(h, m, EI, N):
 
 
 @_compiled
-def solve_chains(
-    length, mass, stiffness, force, ends, below, width, root, low, high, counts, rounding
-):
-    """Solve chain after chain, each from the roots of the one before.
+def _dimensionless(h, m, EI, N, own):
+    """Set own to the chain in units of its length and its mean m and EI; return that of omega^2."""
+    L, m0, EI0, n = 0.0, 0.0, 0.0, len(h)
+    for k in range(n):
+        L, m0, EI0 = L + h[k], m0 + m[k] / n, EI0 + EI[k] / n
+    for k in range(n):
+        own[0, k], own[1, k] = h[k] / L, m[k] / m0
+        own[2, k], own[3, k] = EI[k] / EI0, N[k] * (L * L / EI0)
+    return EI0 / (m0 * L * L * L * L)
 
-    Results [rad^2/s^2] go into root, low, high, counts, rounding, shape (chains, roots); returns
-    the reasons and the numbers of samples, shape (chains,).
-    """
-    chains, n = mass.shape
-    roots = root.shape[1]
-    reason, total = np.zeros(chains, np.int64), np.zeros(chains, np.int64)
-    h, m, EI, N = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
-    current, slope = np.zeros(roots), np.zeros(roots)
-    table, work = np.empty((_ROWS, n + n // 2 + 8)), _workspace(n, roots)
-    warm = False
-    for b in range(chains):
-        own = length[b if len(length) > 1 else 0]
-        if not _is_valid(own, mass[b], stiffness[b], force[b]):
+
+@_compiled
+def _solve_rows(
+    length, mass, stiffness, force, ends, below, width, first, warm, current, slope, own, table,
+    work, root, low, high, counts, rounding, reason, total
+):  # fmt: skip
+    """Solve chains from row `first` on; return (row, columns) if one needs a larger table."""
+    for b in range(first, len(mass)):
+        i = b if len(length) > 1 else 0
+        if not _is_valid(length[i], mass[b], stiffness[b], force[b]):
             reason[b] = INVALID
             continue
-        L, m0, EI0 = np.sum(own), np.mean(mass[b]), np.mean(stiffness[b])
-        for k in range(n):
-            h[k], m[k] = own[k] / L, mass[b, k] / m0
-            EI[k], N[k] = stiffness[b, k] / EI0, force[b, k] * (L * L / EI0)
+        unit = _dimensionless(length[i], mass[b], stiffness[b], force[b], own)
         for _attempt in range(2):
-            reason[b], more, table = _solve(
-                *(h, m, EI, N, ends, below, warm, current, slope),
+            reason[b], more = _solve(
+                *(own[0], own[1], own[2], own[3], ends, below, warm[0], current, slope),
                 *(width, low[b], high[b], counts[b], rounding[b], table, work),
             )
+            if reason[b] == TABLE_TOO_SMALL:
+                return b, more
             total[b] += more
-            if reason[b] in (CERTIFIED, CLUSTERED) or not warm:
+            if reason[b] == CERTIFIED or reason[b] == CLUSTERED or not warm[0]:
                 break
-            warm = False
-        warm = reason[b] == CERTIFIED
-        unit = EI0 / (m0 * L * L * L * L)
-        for k in range(roots):
-            inside = min(max(current[k], low[b, k]), high[b, k])
-            root[b, k] = unit * inside
+            warm[0] = False
+        warm[0] = reason[b] == CERTIFIED
+        for k in range(root.shape[1]):
+            root[b, k] = unit * min(max(current[k], low[b, k]), high[b, k])
             low[b, k], high[b, k] = unit * low[b, k], unit * high[b, k]
             rounding[b, k] *= unit
+    return len(mass), 0
+
+
+def solve_chains(
+    length: Array,
+    mass: Array,
+    stiffness: Array,
+    force: Array,
+    ends: Integers,
+    below: int,
+    width: float,
+    results: tuple[Array, Array, Array, Integers, Array],
+) -> tuple[Integers, Integers]:
+    """Solve chain after chain, each from the roots of the one before.
+
+    Parameters
+    ----------
+    length, mass, stiffness, force : array, shape (chains, n)
+        As in `Chain`, each row a chain; one row of lengths may serve all.
+    ends : array of int, shape (2,)
+        Numbers of `ENDS`.
+    below : int
+        Eigenvalues below those wanted: the rigid ones.
+    width : float
+        Relative width of the brackets in omega^2.
+    results : tuple of array
+        Set to the roots, shape (chains, roots), the lower and upper ends of their brackets, their
+        counts, shape (chains, roots, 2), and the rounding; [rad^2/s^2].
+
+    Returns
+    -------
+    reason, total : array of int, shape (chains,)
+        0 where all roots are certified, and the number of evaluations.
+    """
+    chains, n = mass.shape
+    roots = results[0].shape[1]
+    reason, total = np.zeros(chains, np.int64), np.zeros(chains, np.int64)
+    warm, current, slope, own = (
+        np.zeros(1, bool),
+        np.zeros(roots),
+        np.zeros(roots),
+        np.empty((4, n)),
+    )
+    table, work, row = np.empty((_ROWS, n + n // 2 + 8)), _workspace(n, roots), 0
+    while row < chains:
+        row, columns = _solve_rows(
+            *(length, mass, stiffness, force, ends, below, width, row, warm, current, slope),
+            *(own, table, work, *results, reason, total),
+        )
+        if row < chains:
+            warm[0], table = False, np.empty((_ROWS, columns + columns // 2))
     return reason, total
+
+
+def compiled_here() -> bool:
+    """Tell whether this process had to compile the kernel: it was not in numba's cache."""
+    return bool(_solve_rows.stats.cache_misses)
