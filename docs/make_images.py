@@ -11,12 +11,13 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from antinode import Beam, Ends, load_case, solve_modes
+from antinode import Beam, Ends, load_beam, load_case, solve_modes
 from antinode.figures import PALETTE, plot_case, plot_modes, save
 
 ROOT = Path(__file__).resolve().parents[1]
 IMAGES = ROOT / "docs" / "images"
-STARTER = ROOT / "src" / "antinode" / "examples" / "starter" / "case.toml"
+EXAMPLES = ROOT / "src" / "antinode" / "examples"
+STARTER = EXAMPLES / "starter" / "case.toml"
 GREY = "#5A5A5A"
 
 
@@ -32,6 +33,14 @@ def ruler_modes() -> None:
         [0.0, 1.0], 1.1775, 65.625, 3.15e7, 600.0, ends=Ends("pinned", "pinned"), name="ruler"
     )
     save(plot_modes(solve_modes(beam, 4)), IMAGES / "ruler_modes.png")
+
+
+def howto() -> None:
+    """Draw the modes of the beams of the how-to pages."""
+    for name in ("tower", "rocket", "drill_string", "shaft"):
+        file = load_beam(EXAMPLES / name / "beam.toml")
+        result = solve_modes(file, file.solve.modes, tolerance=file.solve.tolerance)
+        save(plot_modes(result), IMAGES / f"howto_{name}.png")
 
 
 def speed_sweep() -> None:
@@ -170,7 +179,7 @@ def _draw_slice(axes: Axes) -> None:
     axes.set(xlim=(-1.4, 11.6), ylim=(-1.1, 1.0))
 
 
-MAKERS = (starter_modes, ruler_modes, speed_sweep, literal_methods, conventions)
+MAKERS = (starter_modes, ruler_modes, howto, speed_sweep, literal_methods, conventions)
 
 
 def main() -> None:
