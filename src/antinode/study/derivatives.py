@@ -25,15 +25,21 @@ import numpy.typing as npt
 
 from antinode.beam import Beam
 from antinode.loads import Loads, PointForce
-from antinode.riccati.chain import Chain, Family
+from antinode.riccati.chain import Chain, Family, largest_wave_number
 from antinode.riccati.shapes import mode_states, propagate
 from antinode.vehicle import Interpolation
 
 Array = npt.NDArray[np.float64]
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
-_NODES, _WEIGHTS = (_NODES + 1) / 2, _WEIGHTS / 2
-_FINE, _FINE_WEIGHTS = np.polynomial.legendre.leggauss(12)
-_FINE, _FINE_WEIGHTS = (_FINE + 1) / 2, _FINE_WEIGHTS / 2
+_SHORT = 0.5  # wave number times length up to which three points integrate squares to 1e-9
+
+
+def _gauss(points: int) -> tuple[Array, Array]:
+    """Return Gauss nodes and weights on 0 ... 1."""
+    nodes, weights = np.polynomial.legendre.leggauss(points)
+    return (nodes + 1) / 2, weights / 2
+
+
+_FEW, _MANY, _FINE = _gauss(3), _gauss(8), _gauss(12)
 
 
 @dataclass(frozen=True)
@@ -61,25 +67,31 @@ class Modes:
         return mode_states(self.chain, self.omega2, np.ones(len(self.omega2), dtype=np.int64))
 
     @cached_property
+    def _rule(self) -> tuple[Array, Array]:
+        """Gauss nodes and weights for every segment."""
+        wave = largest_wave_number(self.chain, float(np.max(np.abs(self.omega2))))
+        return _FEW if np.max(wave * self.chain.length) < _SHORT else _MANY
+
+    @cached_property
     def x(self) -> Array:
         """Gauss points of all segments, from the nose aft [m], shape (q,)."""
         nodes = self.chain.nodes
-        return np.asarray((nodes[:-1, None] + self.chain.length[:, None] * _NODES).ravel())
+        return np.asarray((nodes[:-1, None] + self.chain.length[:, None] * self._rule[0]).ravel())
 
     @cached_property
     def _at_points(self) -> Array:
         """States at the Gauss points, shape (q, k, s)."""
         start, length = self.states[:-1], self.chain.length
-        parts = [propagate(self.chain, start, self.omega2, t * length) for t in _NODES]
+        parts = [propagate(self.chain, start, self.omega2, t * length) for t in self._rule[0]]
         return np.stack(parts, axis=1).reshape(len(self.x), *start.shape[1:])
 
     @cached_property
     def _weights(self) -> Array:
-        return np.asarray((self.chain.length[:, None] * _WEIGHTS).ravel())
+        return np.asarray((self.chain.length[:, None] * self._rule[1]).ravel())
 
     @cached_property
     def _modal_mass(self) -> Array:
-        mass = np.repeat(self.chain.mass, len(_NODES)) * self._weights
+        mass = np.repeat(self.chain.mass, len(self._rule[0])) * self._weights
         return np.asarray(mass @ self._at_points[..., 0] ** 2)
 
     @cached_property
@@ -170,8 +182,15 @@ def _integrals(x: Array, stations: Array, column: Array, how: Interpolation) -> 
 
 def _partial(k: npt.NDArray[np.int64], t: Array, column: Array, how: Interpolation) -> Array:
     """Integrate the derivatives over the first part of intervals, over the intervals' lengths."""
-    inner = _hat(np.repeat(k[:, None], len(_FINE), axis=1), t[:, None] * _FINE, column, how)
-    return np.asarray(np.einsum("g,qgs->qs", _FINE_WEIGHTS, inner) * t[:, None])
+    rows, part = np.arange(len(column)), t[:, None]
+    first, second = rows == k[:, None], rows == k[:, None] + 1
+    if how == "step":
+        return np.asarray(part * first)
+    if how == "linear":
+        return np.asarray((part - part**2 / 2) * first + part**2 / 2 * second)
+    nodes, weights = _FINE
+    inner = _hat(np.repeat(k[:, None], len(nodes), axis=1), part * nodes, column, how)
+    return np.asarray(np.einsum("g,qgs->qs", weights, inner) * part)
 
 
 class ForceChange(NamedTuple):

@@ -309,8 +309,9 @@ def _warnings(
         warnings.append("standard deviations are those of least squares, not of a robust loss")
     if estimates.known_noise and (ratio := _misfit_ratio(estimates)) > 1.5:
         warnings.append(
-            f"the frequencies differ by {ratio:.2g} times their standard deviations (rms): the "
-            "model or the standard deviations are wrong, and the intervals too narrow"
+            f"the frequencies differ by {ratio:.2g} times their standard deviations (rms): this is "
+            "no more than a local minimum (try more fit.starts), or the model or the standard "
+            "deviations are wrong; the intervals are too narrow"
         )
     if not estimates.known_noise and estimates.freedoms < 1:
         warnings.append(

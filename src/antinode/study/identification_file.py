@@ -226,7 +226,7 @@ class Fit(Frozen):
         default=1e-10, description="relative change of the cost at which a fit ends"
     )
     frequency_tolerance: Annotated[Number, Field(ge=1e-11, le=1e-4)] = Field(
-        default=1e-7, description="relative error of a frequency by what varies inside segments"
+        default=1e-8, description="relative error of a frequency by what varies inside segments"
     )
     relative_sd: Annotated[Number, Field(gt=0)] | None = Field(
         default=None, description="standard deviation of every frequency, relative"

@@ -33,6 +33,13 @@ _MASSES = ("vehicle", "masses")
 _MASS = "mass_per_length"
 _BURN = ("condition", "burn_fraction")
 _THRUST = ("condition", "thrust")
+_BESIDE_THE_HULL = (
+    ("vehicle", "fins"),
+    ("condition", "fin_position"),
+    ("condition", "extra_drag"),
+    ("condition", "extra_drag_position"),
+)
+"""Where numbers stand that neither cavity nor planing depend on."""
 
 
 @dataclass(frozen=True)
@@ -95,12 +102,13 @@ class Misfit:
         AntinodeError
             If a row cannot be computed.
         """
-        responses, pairings = [], []
-        for row, case in zip(self.rows, self.cases(vector), strict=True):
-            response = respond(case, row.wanted, self.refinement)
-            responses.append(response)
-            pairings.append({f: pair(data, response.modes[f]) for f, data in row.families.items()})
-        return Evaluation(vector, tuple(responses), tuple(pairings))
+        wanted = [row.wanted for row in self.rows]
+        responses = respond(self.cases(vector), wanted, self.refinement)
+        pairings = tuple(
+            {family: pair(data, response.modes[family]) for family, data in row.families.items()}
+            for row, response in zip(self.rows, responses, strict=True)
+        )
+        return Evaluation(vector, responses, pairings)
 
     def residuals(self, at: Evaluation) -> Array:
         """Return the residuals of the data."""
@@ -221,7 +229,8 @@ class RowDerivative:
         value = value_at(self.case, place.keys)
         assert value is not None
         low, high = _around(value, self.unknowns.items[k].size, place)
-        cases = [replaced(self.case, place.keys, v) for v in (low, high)]
+        base = _without_planing(self.case) if place.keys[:2] in _BESIDE_THE_HULL else self.case
+        cases = [replaced(base, place.keys, v) for v in (low, high)]
         step = (high - low) / float(self.slopes[k])
         mass = _mass_change(cases, step) if _moves_mass(place) else None
         low_forces, high_forces = map(_forces, cases)
@@ -255,6 +264,11 @@ def _share(state: str, states: Sequence[str], burn_fraction: float) -> float:
     """Return the share of a mass state at a burn fraction."""
     place = burn_fraction * (len(states) - 1)
     return max(0.0, 1.0 - abs(place - states.index(state)))
+
+
+def _without_planing(case: Case) -> Case:
+    """Return the case without the planing forces, the dearest part of the loads."""
+    return replaced(case, ("model", "planing"), "none")
 
 
 def _forces(case: Case) -> tuple[PointForce, ...]:
