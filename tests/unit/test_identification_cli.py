@@ -121,8 +121,9 @@ IN_FILE = {
     "unit": ('"90 kN"', '"90 km"', ["upper", "90 km"]),
     "prior without sd": ('{ sd = "2 mm" }', '{ mean = "80 mm" }', ["prior.sd is missing"]),
     "prior of no width": ('{ sd = "2 mm" }', "{ sd = 0 }", ["prior.sd", "above 0"]),
-    "twice": ('"vehicle.cavitator.diameter"', '"condition.thrust"\n[[parameters]]\nkey = "thrust"',
-              ["thrust", "two entries"]),
+    "twice": (
+        "[fit]", '[[parameters]]\nkey = "condition.thrust"\n[fit]', ["thrust", "two entries"],
+    ),
     "row sets it": ('"vehicle.cavitator.diameter"', '"cavitator_angle"', ["per_row = true"]),
     "no value": ('"vehicle.cavitator.diameter"', '"extra_drag"', ["no value", "start"]),
     "log of zero": (

@@ -17,7 +17,7 @@ from rich.text import Text
 from antinode.printing import show_warnings
 
 from .identification import Estimate, Identification
-from .identification_words import correlations_text, directions_text
+from .identification_words import brief, correlations_text, directions_text
 
 _EVERY = 1.0  # second between lines of progress where there is no terminal
 
@@ -50,6 +50,10 @@ def show_identification(out: Console, result: Identification) -> None:
     """Print what was found: fit, parameters, what is open, warnings."""
     out.print(_summary(result), highlight=False)
     out.print(_rows_table(result))
+    out.print(
+        "above: (fitted - observed) / observed in thousandths, by number of the mode\n",
+        highlight=False,
+    )
     out.print(_parameter_table(result.parameters))
     for line in (*directions_text(result.estimates), *correlations_text(result.estimates)):
         out.print(escape(line), highlight=False)
@@ -83,7 +87,7 @@ def _rows_table(result: Identification) -> Table:
     table = _new_table(
         "row", "observed [Hz]", *(f"{k}" for k in range(1, shown + 1)), "worst", left=1
     )
-    for (row, family), group in groupby(result.comparisons, key=lambda c: (c.row, c.family)):
+    for (_, family), group in groupby(result.comparisons, key=lambda c: (c.row, c.family)):
         entries = list(group)
         label = entries[0].label + ("" if family == "bending" else f" ({family})")
         by_number = {c.number: c for c in entries}
@@ -94,8 +98,6 @@ def _rows_table(result: Identification) -> Table:
         first = f"{entries[0].observed_hz:.5g} ..."
         worst = max((c.relative for c in entries), key=abs)
         table.add_row(Text(f"{label}"), first, *cells, f"{1e3 * worst:+.3f}")
-        assert row
-    table.caption = "(fitted - observed) / observed in thousandths, by number of the mode"
     return table
 
 
@@ -103,7 +105,7 @@ def _parameter_table(parameters: Iterable[Estimate]) -> Table:
     table = _new_table("parameter", "unit", "value", "+-", "95 % from", "to", "by data", left=2)
     for p in parameters:
         low, high = p.interval
-        sd = "at bound" if p.at_bound else "open" if math.isinf(p.sd) else f"{p.sd:.2g}"
+        sd = "at bound" if p.at_bound else "open" if math.isinf(p.sd) else brief(p.sd)
         cells = (p.name, p.unit, f"{p.value:.6g}", sd, _number(low), _number(high))
         table.add_row(*(Text(cell) for cell in cells), f"{p.determined:.0%}")
     return table

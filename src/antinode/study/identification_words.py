@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from .estimates import Direction, Estimates
 from .unknowns import Unknown
 
@@ -11,12 +13,19 @@ MOST = 6
 _NAMED = 4
 
 
-def amount(item: Unknown, entry: float, sizes: float) -> str:
-    """Say by how much an unknown moves along a direction: ``1.2 kN``-like, or in per cent."""
+def brief(value: float) -> str:
+    """Write a number with two digits, without an exponent where it is of common size."""
+    if not 1e-4 <= abs(value) < 1e6:
+        return f"{value:.1e}"
+    return np.format_float_positional(value, 2, unique=False, fractional=False, trim="-")
+
+
+def amount(item: Unknown, sizes: float) -> str:
+    """Say by how much an unknown moves along a direction, with its unit or in per cent."""
     if item.log:
-        return f"{100 * abs(sizes) * item.size:.2g} %"
+        return f"{brief(100 * abs(sizes) * item.size)} %"
     unit = f" {item.unit}" if item.unit else ""
-    return f"{abs(sizes) * item.size:.2g}{unit}"
+    return f"{brief(abs(sizes) * item.size)}{unit}"
 
 
 def direction_text(estimates: Estimates, direction: Direction) -> str:
@@ -27,8 +36,7 @@ def direction_text(estimates: Estimates, direction: Direction) -> str:
     if len(direction.entries) == 1:
         return f"{items[direction.entries[0]].label} is not determined by the data"
     moves = [
-        f"{items[k].label} {'up' if part > 0 else 'down'} by "
-        f"{amount(items[k], float(estimates.vector[k]), part * step)}"
+        f"{items[k].label} {'up' if part > 0 else 'down'} by {amount(items[k], part * step)}"
         for k, part in named
     ]
     more = len(direction.entries) - len(named)
