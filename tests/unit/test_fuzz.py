@@ -60,7 +60,7 @@ INLINE = {
 def tables(name):
     """The tables of an example, with stations inline."""
     folder = files("antinode.examples") / name
-    file = folder / ("case.toml" if name == "starter" else "beam.toml")
+    file = next(f for f in (folder / "case.toml", folder / "beam.toml") if f.is_file())
     found = tomllib.loads(file.read_text(encoding="utf-8"))
     if "vehicle" in found:
         found["vehicle"]["stations"] = copy.deepcopy(INLINE)
