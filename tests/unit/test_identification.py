@@ -409,3 +409,23 @@ def test_results_are_written_and_never_over_others(case, tmp_path):
     with pytest.raises(an.InputError, match="exists already"):
         write_identification(result, tmp_path / "out")
     write_identification(result, tmp_path / "out", overwrite=True)
+
+
+def test_an_extra_drag_steps_n_where_it_acts(case):
+    at_fins, behind = (
+        an.Case(
+            vehicle=case.vehicle,
+            condition=case.condition.model_copy(
+                update={"extra_drag": 3e3, "extra_drag_position": x}
+            ),
+        )
+        for x in (None, 5.5)
+    )
+    for changed, x in ((at_fins, 5.0), (behind, 5.5)):
+        force = changed.loads.forces[-1]
+        assert (force.name, force.x, force.F_X) == ("extra drag", x, 3e3)
+        assert changed.loads.a_X == pytest.approx(case.loads.a_X - 3e3 / case.loads.mass)
+        assert changed.loads.checks.worst < 1e-12
+    off = case.condition.model_copy(update={"extra_drag": 1.0, "extra_drag_position": 7.0})
+    with pytest.raises(an.InputError, match="extra_drag_position"):
+        an.compute_loads(case.vehicle, off)
