@@ -74,13 +74,14 @@ def _wide(_typing: Any) -> Any:
 _wide_vectors: Any = intrinsic(_wide)
 
 
-_compiled = numba.njit(
-    cache=True,
-    nogil=True,
-    error_model="numpy",
-    fastmath={"contract", "nsz", "arcp"},
-    _nrt=False,  # nothing is allocated inside, and no array's references are counted
-)
+_OPTIONS: dict[str, Any] = {
+    "cache": True,
+    "nogil": True,
+    "error_model": "numpy",
+    "fastmath": {"contract", "nsz", "arcp"},
+    "_nrt": False,  # nothing is allocated inside, and no array's references are counted
+}
+_compiled = numba.njit(**_OPTIONS)
 
 
 # --- the table of pieces ----------------------------------------------------------------------
@@ -171,6 +172,14 @@ def _advance(table, state, first, last):
             state[32 + lane] = (n * (h2 + h2) + c * h0) * a - s * B - u * E - r * D + p * F
             negative = 1.0 if a * following < 0.0 else (2.0 if trace * a < 0.0 else 0.0)
             state[40 + lane] += negative
+
+
+@_compiled
+def repeat(table, state, last, times):
+    """Pass a free chain a number of times: to be timed."""
+    for _ in range(times):
+        _start(state, 0)
+        _advance(table, state, 0, last)
 
 
 @_compiled
@@ -386,7 +395,7 @@ def _point_table(chain: Chain, L: float, EI0: float, m0: float) -> tuple[Integer
 CERTIFIED, OUT_OF_REACH, NOT_BRACKETED, NOT_FINITE, INVALID, CLUSTERED = 0, 1, 2, 3, 4, 5
 TABLE_TOO_SMALL = -1
 
-_MOST_SAMPLES = 4096
+_MOST_SAMPLES = 256, 64  # and more for every root
 _MOST_PASSES = 100
 _EPSILON = 64 * float(np.finfo(float).eps)  # rounding of the minors, relative
 _MARGIN = 0.45  # half the distance of the certifying samples, in widths
@@ -407,19 +416,16 @@ def _phase(h, m, EI, N, omega2):
 @_compiled
 def _first_samples(h, m, EI, N, number, samples):
     """Set samples between the roots that a slowly varying chain would have, and one below 0."""
-    low = 1e-3
-    for k in range(number):
-        target = (0.25 + 0.5 * k) * math.pi
-        high = 4.0 * low
-        while _phase(h, m, EI, N, high) < target:
-            low, high = high, 4.0 * high
-        while high > 1.05 * low:
-            middle = math.sqrt(low * high)
-            if _phase(h, m, EI, N, middle) < target:
-                low = middle
-            else:
-                high = middle
-        samples[k] = low
+    low, found = 1e-3, 0
+    before = _phase(h, m, EI, N, low)
+    while found < number:
+        high = 1.6 * low
+        after = _phase(h, m, EI, N, high)
+        while found < number and after >= (0.25 + 0.5 * found) * math.pi:
+            share = ((0.25 + 0.5 * found) * math.pi - before) / (after - before)
+            samples[found] = low * 1.6 ** max(share, -1.0 / (found + 1))
+            found += 1
+        low, before = high, after
     samples[number] = -1.0
     return number + 1
 
@@ -649,7 +655,7 @@ def _solve(
         for k in range(len(root)):
             slope[k] = 0.0
     for turn in range(_MOST_PASSES):
-        if total + number > _MOST_SAMPLES:
+        if total + number > samples.shape[1]:
             break
         largest = 0.0
         for k in range(number):
@@ -699,10 +705,11 @@ def _solve(
 
 def _workspace(n: int, roots: int) -> tuple[Array | Integers, ...]:
     """Return the arrays that `_solve` writes into."""
+    most = _MOST_SAMPLES[0] + _MOST_SAMPLES[1] * roots
     return (
-        np.empty((9, _MOST_SAMPLES)),
-        np.empty(_MOST_SAMPLES),
-        np.zeros(_MOST_SAMPLES, np.int64),
+        np.empty((9, most)),
+        np.empty(most),
+        np.zeros(most, np.int64),
         np.empty(n + 1, np.int64),
         np.full(n + 1, -1),
         np.empty((0, 8)),

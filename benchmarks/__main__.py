@@ -1,0 +1,237 @@
+"""All benchmarks in one run: python -m benchmarks, some minutes; writes benchmarks/results.json.
+
+One process, one thread. Answers are compared before anything is timed; times are medians of many
+calls, antinode's and the peer's in turn.
+"""
+
+import os
+
+for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
+    os.environ[_name] = "1"
+
+import datetime  # noqa: E402
+import json  # noqa: E402
+import platform  # noqa: E402
+import sys  # noqa: E402
+from importlib.metadata import version  # noqa: E402
+from pathlib import Path  # noqa: E402
+
+import numpy as np  # noqa: E402
+from scipy.linalg import eigh  # noqa: E402
+
+import antinode as an  # noqa: E402
+from antinode.riccati import lanes  # noqa: E402
+
+from . import c  # noqa: E402
+from .beams import MODES, SEGMENTS, medians, smooth_case, stepped_beam  # noqa: E402
+from .cold_start import starts  # noqa: E402
+from .peers import dense  # noqa: E402
+from .peers.reduced_basis import ReducedBasis  # noqa: E402
+from .peers.subspace import Subspace  # noqa: E402
+
+HERE = Path(__file__).resolve().parent
+CASES = 300
+
+
+def row(work, against, target, antinode_s, peer_s, *, most=False, **more):
+    """One row: the ratio is that of times, or of throughput where a target is a least one."""
+    ratio = antinode_s / peer_s if most else peer_s / antinode_s
+    met = ratio <= target if most else ratio >= target
+    return {
+        "work": work,
+        "against": against,
+        "ratio": float(f"{ratio:.3g}"),
+        "target": f"at {'most' if most else 'least'} {target:g}",
+        "met": bool(met),
+        "antinode_s": float(f"{antinode_s:.3g}"),
+        "peer_s": float(f"{peer_s:.3g}"),
+        **more,
+    }
+
+
+def check(name, found, expected, tolerance):
+    """Stop if a peer's answers are not ours."""
+    worst = float(np.max(np.abs(found / expected - 1)))
+    assert worst < tolerance, f"{name}: answers differ by {worst:g}"
+    return worst
+
+
+def step():
+    """One segment-frequency step against C."""
+    libraries = c.libraries()
+    if not libraries:
+        return []
+    _, m, EI, N = (values.reshape(-1, SEGMENTS)[0] for values in smooth_case(_rng(), 1))
+    h, one = np.full(SEGMENTS, 1.0 / SEGMENTS), 36.0 / np.mean(EI)
+    own = h, m / np.mean(m), EI / np.mean(EI), N * one
+    starts_at, marks = np.empty(SEGMENTS + 1, np.int64), np.full(SEGMENTS + 1, -1)
+    pieces = lanes._pieces(*own, 1.2e5, starts_at)
+    table = np.empty((lanes._ROWS, pieces))
+    lanes._fill(*own, starts_at, marks, table)
+    state = np.zeros(64)
+    state[48:56] = np.linspace(100, 1.2e5, 8)
+    times = 200
+
+    def ours():
+        lanes.repeat(table, state, pieces, times)
+
+    ours()
+    expected = state[:48].copy()
+    for library in libraries.values():
+        c.repeat(library, table, state, pieces, 1)
+        check("C", state[:40], expected[:40], 1e-9)
+        assert np.array_equal(state[40:48], expected[40:48])
+    theirs = [
+        lambda library=library: c.repeat(library, table, state, pieces, times)
+        for library in libraries.values()
+    ]
+    mine, *others = (t / (times * pieces * 8) for t in medians(101, ours, *theirs))
+    what = "the same recursion in C, 8 lanes, -O3 -march=native"
+    return [row("one segment-frequency step", what, 3, mine, min(others), most=True)]
+
+
+def _rng():
+    return np.random.default_rng(2026)
+
+
+def batch():
+    """Six certified frequencies, structure different in every case."""
+    h, m, EI, N = smooth_case(_rng(), CASES)
+    beams = an.BeamBatch(h, m, EI, N)
+    ours = an.solve_many(beams)
+    assert not ours.reason.any()
+    solver = Subspace(SEGMENTS)
+
+    def subspace():
+        return np.array([solver.omega2(h[0], m[k], EI[k], N[k], MODES) for k in range(CASES)])
+
+    def by_dense():
+        return np.array([dense.omega2(h[0], m[k], EI[k], N[k], MODES) for k in range(20)])
+
+    check("subspace", subspace(), ours.omega2, 1e-5)
+    check("dense", by_dense(), ours.omega2[:20], 1e-5)
+    mine, other, full = medians(15, lambda: an.solve_many(beams), subspace, by_dense)
+    work = "6 certified bending frequencies, 100 segments, structure different in every case"
+    evaluations = float(np.mean(ours.evaluations))
+    return [
+        row(work, "scipy banded subspace iteration, warm-started", 10, mine / CASES,
+            other / CASES, evaluations=evaluations),
+        row(work, "scipy dense eigh", 10, mine / CASES, full / 20),
+    ]  # fmt: skip
+
+
+def loads():
+    """The same where only the loads vary."""
+    h, m, EI, N = smooth_case(_rng(), 1)
+    factors = _rng().uniform(0.3, 1.5, 2000)
+    basis = ReducedBasis(h, m[0], EI[0], N[0], (0.3, 0.9, 1.5))
+    beams = an.BeamBatch(h, m, EI, factors[:, None] * N)
+    ours = an.solve_many(beams)
+
+    def reduced():
+        return np.array([basis.omega2(factor, MODES) for factor in factors])
+
+    error = check("reduced basis", reduced(), ours.omega2, 2e-8)
+    mine, other = (t / len(factors) for t in medians(15, lambda: an.solve_many(beams), reduced))
+    work = "the same, only loads vary, true error <= 1e-8"
+    against = "reduced basis, 8 modes at 3 conditions"
+    return [row(work, against, 1, mine, other, peer_error=float(f"{error:.2g}"))]
+
+
+def single():
+    """One solve in a running process."""
+    h, m, EI, N = smooth_case(_rng(), 40)
+    solver, turn = Subspace(SEGMENTS), iter(range(10**9))
+
+    def batch_of_one():
+        k = next(turn) % 40
+        return an.solve_many(an.BeamBatch(h, m[k], EI[k], N[k]))
+
+    def subspace():
+        k = next(turn) % 40
+        return solver.omega2(h[0], m[k], EI[k], N[k], MODES)
+
+    beam = stepped_beam(SEGMENTS)
+
+    def full():
+        return an.solve_modes(beam, MODES, families=("bending",))
+
+    one, other, with_shapes = medians(201, batch_of_one, subspace, full)
+    against = "scipy banded subspace iteration, warm-started"
+    return [
+        row("one solve, 100 segments, frequencies (a batch of one)", against, 0.5, one, other,
+            most=True),
+        row("one solve, 100 segments, with shapes (solve_modes)", against, 0.5, with_shapes,
+            other, most=True),
+    ]  # fmt: skip
+
+
+def long_chain():
+    """10,000 segments against 1,000."""
+    beams = [stepped_beam(segments) for segments in (10_000, 1_000)]
+    calls = [lambda beam=beam: an.solve_modes(beam, MODES, families=("bending",)) for beam in beams]
+    return [row("one solve, 10,000 segments", "one with 1,000", 11, *medians(5, *calls), most=True)]
+
+
+def cold_start():
+    """Fresh processes."""
+    found = {name: value["median_s"] for name, value in starts().items()}
+    imports = found["import numpy, scipy.linalg"]
+    mine = found["antinode modes"]
+    return [
+        {
+            "work": "cold start of antinode modes",
+            "against": "importing numpy and scipy.linalg",
+            "ratio": float(f"{mine / imports:.3g}"),
+            "target": "at most 1.0 s more",
+            "met": mine - imports <= 1.0,
+            "antinode_s": mine,
+            "peer_s": imports,
+        }
+    ]
+
+
+def calibration():
+    """How fast the machine is, in two fixed jobs [s]."""
+    A = np.random.default_rng(0).standard_normal((200, 200))
+    calls = [lambda: eigh(A + A.T, check_finite=False)]
+    calls += [lambda library=library: c.calibrate(library) for library in c.libraries().values()][
+        :1
+    ]
+    names = ("dense eigh, 200 x 200", "C loop, 2,000,000 turns")
+    return {n: float(f"{t:.3g}") for n, t in zip(names, medians(15, *calls), strict=False)}
+
+
+def machine():
+    return {
+        "date": f"{datetime.datetime.now(datetime.UTC):%Y-%m-%d}",
+        "processor": _processor(),
+        "cpu_count": os.cpu_count(),
+        "python": platform.python_version(),
+        "versions": {name: version(name) for name in ("antinode", "numpy", "scipy", "numba")},
+        "calibration_s": calibration(),
+    }
+
+
+def _processor():
+    info = Path("/proc/cpuinfo")
+    lines = info.read_text().splitlines() if info.exists() else []
+    names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
+    wide = " with AVX-512" if any("avx512f" in line for line in lines) else ""
+    return (names[0] if names else platform.machine()) + wide
+
+
+def main():
+    where, rows = machine(), []
+    for part in (step, batch, loads, single, long_chain, cold_start):
+        found = part()
+        rows += found
+        for one in found:
+            print(f"{one['ratio']:8.3g}  ({one['target']})  {one['work']} / {one['against']}")
+    for one in rows:
+        one["machine"] = where
+    (HERE / "results.json").write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,52 @@
+"""The beams that are timed, and the rules of a fair time."""
+
+import statistics
+import time
+
+import numpy as np
+
+LENGTH = 6.0
+SEGMENTS = 100
+MODES = 6
+
+
+def smooth_case(rng, beams, spread=0.1, segments=SEGMENTS):
+    """Free-free beams of uniform segments: m, EI and N different in every one, shape (beams, n).
+
+    m and EI follow a course of their own and a log-linear one between 8 control points drawn with
+    the given spread (standard deviation of the logarithm); N rises along the beam, 20 to 100 % of
+    13 to 50 kN.
+    """
+    s = (np.arange(segments) + 0.5) / segments
+    knots = np.linspace(0, 1, 8)
+
+    def drawn():
+        draws = spread * rng.standard_normal((beams, 8))
+        return np.exp(np.array([np.interp(s, knots, row) for row in draws]))
+
+    m = 330 * np.exp(-4 * (s - 0.45) ** 2) * drawn()
+    EI = 4e5 * np.exp(-3 * (s - 0.3) ** 2) * drawn()
+    N = (13e3 + 37e3 * s) * rng.uniform(0.2, 1.0, (beams, 1))
+    return np.full(segments, LENGTH / segments), m, EI, N
+
+
+def stepped_beam(segments):
+    """One beam of the kind above as `antinode.Beam`."""
+    import antinode as an
+
+    x = np.linspace(0.0, LENGTH, segments + 1)
+    _, m, EI, N = smooth_case(np.random.default_rng(0), 1, 0.0, segments)
+    return an.Beam.from_stations(x, m[0], EI[0], None, N[0])
+
+
+def medians(repeats, *calls):
+    """Median time of each call [s]; they take turns, so that a busy machine slows all alike."""
+    taken = [[] for _ in calls]
+    for call in calls:
+        call()
+    for _ in range(repeats):
+        for times, call in zip(taken, calls, strict=True):
+            start = time.perf_counter()
+            call()
+            times.append(time.perf_counter() - start)
+    return [statistics.median(times) for times in taken]
