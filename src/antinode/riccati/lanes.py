@@ -599,6 +599,17 @@ def _take_sample(lane, state, value, samples, total, below, low, high, counts, a
 
 
 @_compiled
+def _between(samples, at, root):
+    """Return the root by the secant of its bracket, where the ends have different signs."""
+    low, high = at
+    before = samples[2, low]
+    after = math.ldexp(samples[2, high], int(samples[3, high] - samples[3, low]))
+    if not before * after < 0.0:
+        return root
+    return samples[0, low] + (samples[0, high] - samples[0, low]) * before / (before - after)
+
+
+@_compiled
 def _rounding(samples, at, right, force):
     """Estimate the rounding of a root: that of the minors, over the slope of the one that is 0.
 
@@ -692,6 +703,8 @@ def _solve(
                 asked[number], owner[number] = wanted[i], k
                 number += 1
         if number == 0:
+            for k in range(len(root)):
+                root[k] = _between(samples, at[k], root[k])
             _slopes(samples, total, root, below, slope, near)
             force, sure = 0.0, True
             for i in range(len(h)):
