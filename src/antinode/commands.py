@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,15 +15,18 @@ from .examples import EXAMPLES, write_example
 from .options import (
     BeamSet,
     BucklingFactor,
+    Exchange,
     Folder,
+    FromFormat,
     IdentifySet,
     Json,
     Output,
     Overwrite,
     Set,
     Solver,
+    ToFormat,
 )
-from .text import short
+from .text import one_line, short
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,7 +48,7 @@ Input files are TOML. Numbers are SI, angles in radians; a text carries its own 
 "10 deg", "50 kN". Tables along the axis may be CSV files. **antinode schema** lists every key.
 """,
 )
-_SOLVER, _OUTPUT = Solver(), Output()
+_SOLVER, _OUTPUT, _EXCHANGE = Solver(), Output(), Exchange()
 
 
 @app.command(sort_key=2)
@@ -66,7 +70,7 @@ def modes(
     case
         A case file: vehicle and condition in TOML. 'antinode init' writes one.
     """
-    _check_output(output)
+    _check_output(output, modal=True)
     from .case import load_case
     from .loads_table import condition_dict, loads_summary
 
@@ -112,7 +116,7 @@ def beam(
     file
         A beam file in TOML. 'antinode init --beam' writes one.
     """
-    _check_output(output)
+    _check_output(output, modal=True)
     from .beam_file import load_beam
 
     result = _solve(load_beam(file, set_), solver)
@@ -235,6 +239,42 @@ def identify(
     run_identification(file, set_, folder, overwrite=overwrite, json=json)
 
 
+@app.command(sort_key=9)
+def convert(
+    source: Path,
+    target: Path,
+    /,
+    *,
+    from_: FromFormat = "",
+    to: ToFormat = "",
+    set_: BeamSet = (),
+    exchange: Exchange = _EXCHANGE,
+) -> None:
+    """Convert a beam, or measurements, from one file format to another.
+
+    The endings say which. Read are .toml, .csv, .xlsx, NASTRAN's .bdf and .nas, tables of sections
+    of BModes and ElastoDyn in .dat, and measurements in .uff and .unv. Written are the beam as
+    .toml, .csv or .xlsx, its modes as .json, .nc, .mat, .bdf, .uff or .vtu, and measurements as
+    observations for **antinode identify** in .toml, .csv or .json.
+
+    - Example: **antinode convert beam.toml beam.bdf --units mm-t-s**
+    - Example: **antinode convert tower.dat tower.toml --length 87.6m --set beam.ends.left=clamped**
+    - Example: **antinode convert measured.uff observations.csv**
+
+    Parameters
+    ----------
+    source
+        The file to read.
+    target
+        The file to write; one of that name is replaced.
+    """
+    from .exchange.convert import Request
+    from .exchange.convert import convert as run
+
+    _say_notes(run(Request(source, target, from_, to, exchange.choices(set_), exchange.modes)))
+    _say_written(target)
+
+
 @app.command(sort_key=5)
 def schema(of: str = "case", /) -> None:
     """Print the JSON schema of an input file, every key with its unit and range.
@@ -334,9 +374,13 @@ def _solve(problem: Case | BeamFile, solver: Solver) -> ModalResult:
     )
 
 
-def _check_output(output: Output) -> None:
+def _check_output(output: Output, *, modal: bool = False) -> None:
     """Refuse what cannot be written before any work is done."""
-    if output.file:
+    if output.file and modal:
+        from .exchange.outputs import check_modal_output
+
+        check_modal_output(output.file)
+    elif output.file:
         from .dataset import ENDINGS, check_output
 
         check_output(output.file, ENDINGS)
@@ -356,9 +400,9 @@ def _draw(figure: Figure, path: Path) -> None:
 def _write_modes(output: Output, data: dict[str, Any], result: ModalResult) -> None:
     """Write modes to the file, and as JSON to stdout, as asked for."""
     if output.file:
-        from .dataset import modal_table, write_result
+        from .exchange.outputs import Modes, write_modes
 
-        write_result(output.file, data, lambda: modal_table(result), result.to_dataset)
+        _say_notes(write_modes(output.file, Modes(result, data)))
         _say_written(output.file)
     if output.json:
         _print_json(data)
@@ -368,6 +412,12 @@ def _print_json(data: dict[str, Any]) -> None:
     from .dataset import to_json
 
     print(to_json(data))
+
+
+def _say_notes(notes: Iterable[str]) -> None:
+    """Say what a file leaves out."""
+    for note in notes:
+        print(f"note: {one_line(note, 300)}", file=sys.stderr)
 
 
 def _say_written(path: Path) -> None:

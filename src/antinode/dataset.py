@@ -98,15 +98,15 @@ def _nan(value: float | None) -> float:
     return math.nan if value is None else value
 
 
-def import_extra(module: str) -> Any:
-    """Import a library of the `dataset` extra, or say how to install it."""
+def import_extra(module: str, extra: str = "dataset") -> Any:
+    """Import a library of an extra, or say how to install it."""
     import importlib
 
     try:
         return importlib.import_module(module)
     except ImportError as error:
         raise InputError(
-            f"{module} is not installed; add it with: pip install 'antinode[dataset]'"
+            f"{module} is not installed; add it with: pip install 'antinode[{extra}]'"
         ) from error
 
 
@@ -145,8 +145,9 @@ def write_result(
     data: dict[str, Any],
     table: Callable[[], str],
     dataset: Callable[[], xarray.Dataset],
+    kind: str = "",
 ) -> None:
-    """Write a result to .json, .csv or .nc, whole or not at all.
+    """Write a result as .json, .csv or .nc, whole or not at all; `kind` stands for the ending.
 
     Raises
     ------
@@ -158,10 +159,22 @@ def write_result(
         ".csv": lambda p: _write_text(p, table()),
         ".nc": lambda p: _write_netcdf(p, dataset()),
     }
-    check_output(path, ENDINGS)
+    if not kind:
+        check_output(path, ENDINGS)
+    write_whole(path, writers[kind or path.suffix.lower()])
+
+
+def write_whole(path: Path, write: Callable[[Path], None]) -> None:
+    """Write a file whole or not at all, by a function that writes it under another name.
+
+    Raises
+    ------
+    InputError
+        If it cannot be written.
+    """
     partial = path.with_name(f".{path.name}.partial")
     try:
-        writers[path.suffix.lower()](partial)
+        write(partial)
         partial.replace(path)
     except OSError as error:
         raise InputError(_cannot_write(path, error)) from error

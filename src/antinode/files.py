@@ -69,13 +69,26 @@ def read_toml(path: Path) -> dict[str, Any]:
 
 def _read_text(path: Path, most: int, what: str) -> str:
     try:
-        if path.is_file() and (size := path.stat().st_size) <= most:
-            return path.read_text(encoding="utf-8-sig")
-        exists, folder = path.exists(), path.is_dir()
+        text = read_bytes(path, most, what).decode("utf-8-sig")
+        return text.replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path}: this is not UTF-8 text; save it as text, or check that this is {what}"
         ) from error
+
+
+def read_bytes(path: Path, most: int, what: str) -> bytes:
+    """Read a file of at most so many bytes.
+
+    Raises
+    ------
+    InputError
+        If it is missing, no file, or too large.
+    """
+    try:
+        if path.is_file() and (size := path.stat().st_size) <= most:
+            return path.read_bytes()
+        exists, folder = path.exists(), path.is_dir()
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError(f"{short(str(path))} cannot be read ({reason}); check the path") from error
@@ -178,7 +191,18 @@ def read_csv(path: Path, columns: Sequence[str]) -> dict[str, list[float]]:
     Empty rows and lines that start with ``#`` are left out. A last row of which only the first cell
     is filled repeats the row before: it closes a stepped table.
     """
-    rows = list(_rows(_read_text(path, MOST_CSV_BYTES, "a CSV table"), path))
+    return station_columns(read_cells(path), columns, path)
+
+
+def station_columns(rows: list[Row], columns: Sequence[str], path: Path) -> dict[str, list[float]]:
+    """Return the columns of a table of stations, SI, from its rows of text, header first.
+
+    Raises
+    ------
+    InputError
+        If it is no such table.
+    """
+    rows = list(rows)
     if not rows:
         raise InputError(f"{path}: the table is empty; {_NEEDED}")
     names, factors = _header(rows[0].cells, columns, path)

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
+
+if TYPE_CHECKING:
+    from .exchange.inputs import Choices
 
 _input = Group("Input", sort_key=1)
 _solver = Group("Solver", sort_key=2)
@@ -138,7 +141,8 @@ class Output:
         Path | None,
         Parameter(
             name=["-o", "--output"],
-            help="Write the result to a file: .csv (a table), .json, or .nc (NetCDF, with shapes).",
+            help="Write the result to a file: .csv (a table), .json, or .nc (NetCDF, with shapes); "
+            "modes also as .xlsx, .mat, .vtu, .uff or .bdf.",
             group=_output,
         ),
     ] = None
@@ -146,3 +150,76 @@ class Output:
         Path | None,
         Parameter(help="Draw the result: .png, .svg or .pdf.", group=_output),
     ] = None
+
+
+FromFormat = Annotated[
+    str,
+    Parameter(
+        name="--from",
+        help="Format of the input, where its ending does not say: toml, csv, xlsx, nastran, "
+        "sections, uff.",
+        group=_input,
+        show_default=False,
+    ),
+]
+ToFormat = Annotated[
+    str,
+    Parameter(
+        name="--to",
+        help="Format of the output, where its ending does not say: toml, csv, xlsx, json, netcdf, "
+        "mat, nastran, uff, vtk.",
+        group=_output,
+        show_default=False,
+    ),
+]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Exchange:
+    """What the files of other programs leave open."""
+
+    modes: Annotated[
+        int | None,
+        Parameter(
+            converter=_whole,
+            help="Elastic modes of each family in an output with modes; default: the file's, or 6.",
+            group=_output,
+        ),
+    ] = None
+    units: Annotated[
+        Literal["SI", "mm-t-s"],
+        Parameter(help="Units of NASTRAN and UFF files that do not say them.", group=_input),
+    ] = "SI"
+    plane: Annotated[
+        int,
+        Parameter(
+            converter=_whole,
+            help="Plane of bending where a file has two: 1 or 2 (NASTRAN's; flap or fore-aft is 1, "
+            "edge or side-side 2; y is 1, z 2).",
+            group=_input,
+        ),
+    ] = 1
+    length: Annotated[
+        str | None,
+        Parameter(
+            help="Length of the beam where stations are fractions of it: 87.6m.", group=_input
+        ),
+    ] = None
+
+    def choices(self, assignments: tuple[str, ...]) -> Choices:
+        """Return them as the readers want them."""
+        from .errors import InputError
+        from .exchange.inputs import Choices
+        from .exchange.units import SYSTEMS
+        from .units import to_si
+
+        if self.plane not in (1, 2):
+            raise InputError(f"--plane {self.plane} is none; planes are 1 and 2")
+        try:
+            length = None if self.length is None else to_si(self.length, "m")
+        except ValueError as error:
+            raise InputError(f"--length {self.length[:40]!r}: {error}; write e.g. 87.6m") from error
+        if length is not None and not 0 < length < 1e9:
+            raise InputError(f"--length is {length:g} m; it must be positive and below 1e9 m")
+        return Choices(assignments, SYSTEMS[self.units], self.plane, length)

@@ -1,0 +1,171 @@
+"""A beam as a beam file: the tables of `[beam]`, and their text in TOML.
+
+N(x) stands in the column `axial_force` where a column can hold it. Otherwise its jumps become point
+forces and the rest gravity, or the acceleration of a free beam: `N(x) = sum of the forces left of x
++ a (mass left of x)`, closed by a force at the right end so that no support has to react.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from antinode.attachments import Attachment, Joint, PointMass, Spring
+from antinode.beam import Array, Beam
+from antinode.beam_file import BeamFile
+from antinode.errors import InputError
+from antinode.explain import validate
+
+from .tabulated import Stations, tabulate
+
+_SAME = 1e-7  # of the largest N: what a file may differ from its beam
+KINDS: dict[type[Attachment], str] = {
+    PointMass: "point_masses",
+    Spring: "springs",
+    Joint: "joints",
+}
+"""Tables of what is attached, by their class."""
+
+
+def beam_file_text(beam: Beam) -> tuple[str, tuple[str, ...]]:
+    """Return a beam as the text of a beam file.
+
+    Returns
+    -------
+    str
+        TOML.
+    tuple of str
+        What it does not hold exactly.
+
+    Raises
+    ------
+    InputError
+        If its axial force cannot be written.
+    """
+    tables, notes = beam_tables(beam)
+    return toml_text({"beam": tables}), notes
+
+
+def beam_tables(beam: Beam) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """Return the table `[beam]` of a beam file, and notes on what it does not hold exactly."""
+    plain, loads = _split(beam)
+    stations = tabulate(plain)
+    tables = head_tables(beam, stations) | attachment_tables(beam)
+    if loads:
+        tables["loads"] = loads
+        _check_force(beam, tables)
+    return tables, stations.notes
+
+
+def head_tables(beam: Beam, stations: Stations) -> dict[str, Any]:
+    """Return name, interpolation, stations and ends."""
+    ends = {key: value for key, value in vars(beam.ends).items() if value is not None}
+    columns = {name: column.tolist() for name, column in stations.columns.items()}
+    return {
+        "name": beam.name,
+        "interpolation": stations.interpolation,
+        "stations": columns,
+        "ends": ends,
+    }
+
+
+def attachment_tables(beam: Beam) -> dict[str, list[dict[str, float]]]:
+    """Return what is attached as lists of tables; zeros are left out."""
+    tables: dict[str, list[dict[str, float]]] = {}
+    for item in beam.attachments:
+        row = {key: float(v) for key, v in vars(item).items() if v or key == "x"}
+        tables.setdefault(KINDS[type(item)], []).append(row)
+    return tables
+
+
+def _split(beam: Beam) -> tuple[Beam, dict[str, Any]]:
+    """Return the beam with what a column can hold of N, and loads for the rest."""
+    table = beam.axial_force
+    jumps = np.append(table[0, 0], table[1:, 0] - table[:-1, 1])
+    scale = 1e-12 * float(np.max(np.abs(table)))
+    stepped = beam.interpolation == "step" and not np.any(table[:, 0] != table[:, 1])
+    if beam.axial_acceleration == 0 and (stepped or np.all(np.abs(jumps[1:]) <= scale)):
+        return beam, {}
+    jumps[np.abs(jumps) <= scale] = 0.0
+    rest = table - np.cumsum(jumps)[:, None]
+    rest[np.abs(rest) <= scale] = 0.0
+    return replace(beam, axial_force=rest, axial_acceleration=0.0), _loads(beam, jumps)
+
+
+def _loads(beam: Beam, jumps: Array) -> dict[str, Any]:
+    a = beam.axial_acceleration
+    forces = {k: float(f) for k, f in enumerate(jumps) if f}
+    last = len(beam.x) - 1
+    forces[last] = -a * beam.mass - float(np.sum(jumps))
+    held = _axially_held(beam)
+    if len(held) > 1:  # they share the load by EA: what acts at them is their reaction
+        forces = {k: f for k, f in forces.items() if k not in held}
+    points = [{"x": float(beam.x[k]), "force": f} for k, f in sorted(forces.items()) if f]
+    loads: dict[str, Any] = {"gravity": a} if held and a else {}
+    if points:
+        loads["point_forces"] = points
+    return loads if beam.offset_weight else {**loads, "offset_weight": False}
+
+
+def _axially_held(beam: Beam) -> set[int]:
+    """Return the breakpoints that are held axially."""
+    left, right = beam.ends.of("longitudinal")
+    held = {0} if left == "fixed" else set()
+    held |= {len(beam.x) - 1} if right == "fixed" else set()
+    springs = [s for s in beam.attachments if isinstance(s, Spring) and s.axial]
+    return held | {int(np.argmin(np.abs(beam.x - s.x))) for s in springs}
+
+
+def _check_force(beam: Beam, tables: dict[str, Any]) -> None:
+    """Raise InputError unless the tables give the axial force of the beam."""
+    again = validate(BeamFile, {"beam": tables}, "the beam").beam()
+    k = np.arange(len(beam.x) - 1)
+    wanted = beam.axial_force_at(k, np.full(len(k), 0.5))
+    middle = (beam.x[:-1] + beam.x[1:]) / 2
+    at = np.searchsorted(again.x, middle, side="right") - 1
+    got = again.axial_force_at(at, (middle - again.x[at]) / np.diff(again.x)[at])
+    if np.max(np.abs(got - wanted)) > _SAME * np.max(np.abs(wanted)):
+        raise InputError(
+            "the axial force of this beam jumps and several supports hold it axially: a beam file "
+            "cannot hold that; write a .csv or .xlsx, which tabulate it"
+        )
+
+
+def toml_text(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> str:
+    """Return nested tables as TOML: the keys of a table first, then the tables in it."""
+    inner = {key: v for key, v in table.items() if isinstance(v, Mapping) or _is_list_of_tables(v)}
+    lines = [f"{key} = {_value(v)}\n" for key, v in table.items() if key not in inner]
+    head = f"\n[{'.'.join(path)}]\n" if path and lines else ""
+    parts = [head, *lines]
+    for key, value in inner.items():
+        if isinstance(value, Mapping):
+            parts.append(toml_text(value, (*path, key)))
+        for entry in () if isinstance(value, Mapping) else value:
+            parts.append(f"\n[[{'.'.join((*path, key))}]]\n")
+            parts += [f"{k} = {_value(v)}\n" for k, v in entry.items()]
+    return "".join(parts) if path else "".join(parts).lstrip("\n")
+
+
+def _is_list_of_tables(value: object) -> bool:
+    return isinstance(value, list) and bool(value) and isinstance(value[0], Mapping)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{k} = {_value(v)}" for k, v in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(_value(v) for v in value)}]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float) and not math.isfinite(value):
+        return "nan" if math.isnan(value) else ("inf" if value > 0 else "-inf")
+    return _text(value) if isinstance(value, str) else repr(value)
+
+
+def _text(text: str) -> str:
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join(c if c.isprintable() else f"\\U{ord(c):08X}" for c in escaped) + '"'

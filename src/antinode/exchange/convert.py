@@ -1,0 +1,114 @@
+"""`antinode convert`: from one format to another, by way of the beam."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import get_args
+
+from antinode.dataset import check_output
+from antinode.errors import InputError
+from antinode.text import nearest, one_line
+
+from .formats import INPUTS, OUTPUTS, Format, format_of
+from .inputs import Choices, Found, read_beam
+from .outputs import Modes, check_libraries, write_beam, write_modes
+
+_BEAMS = ("toml", "csv", "xlsx")
+_ROWS = ("toml", "csv", "json")
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to convert, and how.
+
+    Attributes
+    ----------
+    source, target : Path
+    from_format, to_format : str
+        Names of the formats; empty for what the endings say.
+    choices : Choices
+    modes : int or None
+        To solve for; by default the file's.
+    """
+
+    source: Path
+    target: Path
+    from_format: str = ""
+    to_format: str = ""
+    choices: Choices = field(default_factory=Choices)
+    modes: int | None = None
+
+
+def convert(request: Request) -> tuple[str, ...]:
+    """Convert a file.
+
+    Returns
+    -------
+    tuple of str
+        What the new file leaves out, or does not hold exactly.
+
+    Raises
+    ------
+    InputError
+        If the one cannot be read, or the other one not written.
+    """
+    how_in = _named(request.from_format, "--from") or _sniffed(request.source)
+    how_out = _named(request.to_format, "--to") or format_of(request.target, OUTPUTS)
+    _check(request, how_in, how_out)
+    found = read_beam(request.source, how_in, request.choices)
+    if how_out in _BEAMS:
+        return (*found.notes, *write_beam(request.target, found.beam, how_out))
+    modes = _solved(found, request.modes)
+    system = request.choices.system
+    return (*found.notes, *write_modes(request.target, modes, how_out, system))
+
+
+def _named(name: str, option: str) -> Format | None:
+    names: tuple[Format, ...] = get_args(Format)
+    if not name:
+        return None
+    for known in names:
+        if known == name:
+            return known
+    raise InputError(f"{option} {one_line(name, 40)} is no format; {nearest(name, names)}")
+
+
+def _sniffed(path: Path) -> Format:
+    """Return the format of a file by its ending; .dat may be NASTRAN's or a table of sections."""
+    how = format_of(path, INPUTS)
+    if path.suffix.lower() == ".dat" and path.is_file():
+        with path.open("rb") as file:
+            lines = file.read(100_000).decode("utf-8", errors="replace").upper().splitlines()
+        if any(line.startswith(("BEGIN BULK", "GRID")) for line in lines):
+            return "nastran"
+    return how
+
+
+def _check(request: Request, how_in: Format, how_out: Format) -> None:
+    """Refuse what cannot be converted before any work is done."""
+    known = set(INPUTS.values())
+    if how_in not in known:
+        raise InputError(f"--from {how_in} cannot be read; allowed are {', '.join(sorted(known))}")
+    if how_in == "uff" and how_out not in _ROWS:
+        raise InputError(
+            f"{request.source}: measurements become observations, as {', '.join(_ROWS)}; they "
+            f"cannot be written as {how_out}: name another file"
+        )
+    if how_out == "sections":
+        raise InputError("--to sections cannot be written; choose toml, csv or xlsx")
+    if request.source.resolve() == request.target.resolve():
+        raise InputError(f"{request.target} is the input; name another file for the output")
+    check_output(request.target, [request.target.suffix.lower()])
+    check_libraries(how_out)
+
+
+def _solved(found: Found, number: int | None) -> Modes:
+    from antinode.beam_file import Solve
+    from antinode.explain import validate
+    from antinode.modes import solve_modes
+
+    given = {} if number is None else {"modes": number}
+    solve = validate(Solve, found.solve.model_dump() | given, "command line")
+    result = solve_modes(found.beam, solve.modes, tolerance=solve.tolerance, unloaded=True)
+    return Modes(result, result.to_dict())

@@ -1,0 +1,139 @@
+"""Reading a beam from any of the formats that hold one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from antinode.beam import Beam
+from antinode.beam_file import BeamFile, Solve, load_beam
+from antinode.errors import InputError
+from antinode.explain import validate
+from antinode.files import naming, read_toml
+from antinode.limits import check_limits
+from antinode.override import override
+
+from .formats import Format
+from .units import SI, System
+
+Notes = tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What a file may leave open.
+
+    Attributes
+    ----------
+    assignments : tuple of str
+        Overrides such as ``"beam.ends.left=clamped"``.
+    system : System
+        Units of a file that does not say them.
+    plane : {1, 2}
+        In which the beam bends, where a file has two.
+    length : float or None
+        [m], where stations are fractions of it.
+    """
+
+    assignments: tuple[str, ...] = ()
+    system: System = SI
+    plane: int = 1
+    length: float | None = None
+
+
+@dataclass(frozen=True)
+class Found:
+    """A beam from a file, with what to solve for, and what was left out of it."""
+
+    beam: Beam
+    solve: Solve
+    notes: Notes
+
+
+def read_beam(path: Path, how: Format, choices: Choices) -> Found:
+    """Read a beam.
+
+    Parameters
+    ----------
+    path : Path
+    how : str
+        Name of its format.
+    choices : Choices
+
+    Raises
+    ------
+    InputError
+        If it cannot be read.
+    """
+    if how == "toml":
+        return _from_toml(path, choices.assignments)
+    if how == "nastran":
+        return _from_nastran(path, choices)
+    readers: dict[str, Callable[[Path, Choices], tuple[dict[str, Any], Notes]]] = {
+        "csv": _csv,
+        "xlsx": _xlsx,
+        "sections": _sections,
+    }
+    if how not in readers:
+        raise InputError(f"{path}: a beam cannot be read from the format {how}; give another file")
+    table, notes = readers[how](path, choices)
+    return _from_tables({"beam": table}, str(path), choices.assignments, notes)
+
+
+def _from_tables(
+    tables: dict[str, Any], where: str, assignments: Iterable[str], notes: Notes
+) -> Found:
+    """Return the beam of the tables of a beam file, overridden."""
+    assignments = tuple(assignments)
+    override(tables, assignments)
+    where = f"{where} (with --set)" if assignments else where
+    file = validate(BeamFile, tables, where)
+    with naming(where):
+        beam = file.beam()
+        check_limits(beam)
+    return Found(beam, file.solve, notes)
+
+
+def _from_toml(path: Path, assignments: Iterable[str]) -> Found:
+    if "vehicle" in read_toml(path):
+        from antinode.case import load_case
+
+        case = load_case(path, assignments)
+        with naming(str(path)):
+            return Found(case.beam(), case.solve, ())
+    file = load_beam(path, assignments)
+    return Found(file.beam(), file.solve, ())
+
+
+def _from_nastran(path: Path, choices: Choices) -> Found:
+    from .nastran_reader import read_nastran
+
+    beam, notes = read_nastran(path, choices.system, choices.plane)
+    if choices.assignments:
+        from .beam_toml import beam_tables
+
+        tables, more = beam_tables(beam)
+        return _from_tables({"beam": tables}, str(path), choices.assignments, (*notes, *more))
+    with naming(str(path)):
+        check_limits(beam)
+    return Found(beam, Solve(), notes)
+
+
+def _csv(path: Path, _: Choices) -> tuple[dict[str, Any], Notes]:
+    from .station_csv import read_station_csv
+
+    return read_station_csv(path)
+
+
+def _xlsx(path: Path, _: Choices) -> tuple[dict[str, Any], Notes]:
+    from .workbook import read_workbook
+
+    return read_workbook(path)
+
+
+def _sections(path: Path, choices: Choices) -> tuple[dict[str, Any], Notes]:
+    from .sections import read_sections
+
+    return read_sections(path, choices.plane, choices.length)
