@@ -80,7 +80,36 @@ STUDY = (
     "study.identification_report",
     "study.identification_command",
 )
-COMMANDS = ("examples", "options", "commands", "cli")
+EXAMPLES = ("examples",)
+APP = (
+    "app",
+    "app.panels",
+    "app.display",
+    "app.inputs",
+    "app.state",
+    "app.source",
+    "app.quick",
+    "app.compute",
+    "app.save",
+    "app.curve",
+    "app.panels.numbers",
+    "app.panels.vehicle",
+    "app.panels.forces",
+    "app.panels.modes",
+    "app.panels.frequencies",
+    "app.panels.characteristic",
+    "app.panels.curve",
+    "app.panels.notes",
+    "app.scene3d",
+    "app.session",
+    "app.elements",
+    "app.fields",
+    "app.stations",
+    "app.page",
+    "app.guard",
+    "app.server",
+)
+COMMANDS = ("options", "commands", "cli")
 
 MAY_IMPORT = {
     WORDS: (),
@@ -93,7 +122,9 @@ MAY_IMPORT = {
     OUTPUTS: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS),
     PAPER: (WORDS, RICCATI, BEAM, MODES, INPUTS, OUTPUTS),
     STUDY: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),
-    COMMANDS: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),
+    EXAMPLES: (WORDS,),
+    APP: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS, EXAMPLES),
+    COMMANDS: (EXAMPLES, WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),
 }
 """What the modules of a group import, beside those that stand before them in the group."""
 
@@ -108,6 +139,7 @@ HEAVY = (
     "h5py",
     "mpmath",
     "pandas",
+    "nicegui",
 )
 
 

@@ -1,0 +1,56 @@
+"""The page's own elements: pictures drawn in the browser, and the board that feeds them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from nicegui.element import Element
+from nicegui.elements.echart import EChart  # its bundle of ECharts is used by charts.js
+from nicegui.elements.scene import Scene  # its bundle of three.js is used by body.js
+
+_STATIC = Path(__file__).parent / "static"
+BUNDLES = (EChart, Scene)
+
+
+class Picture(Element, component="static/picture.js", esm={"antinode-app": "static"}):
+    """A picture that the browser draws from small JSON.
+
+    Parameters
+    ----------
+    kind : str
+        A key of `kinds` in static/index.js.
+    label : str
+        What it shows, for screen readers.
+    role : str
+        Of the element: an image, or a region that can be read.
+    """
+
+    def __init__(self, kind: str, label: str, role: str = "img") -> None:
+        super().__init__()
+        self._props.update(kind=kind, name=kind, label=label, role=role)
+
+
+class Board(Element, component="static/board.js"):
+    """Hands data to the pictures, all that changed in one message."""
+
+    def apply(self, patch: dict[str, Any]) -> None:
+        """Show new data: pictures by name, whether they are stale, the page's address."""
+        self.run_method("apply", patch)
+
+    def play(self, on: bool) -> None:
+        """Let the mode shapes move."""
+        self.run_method("play", on)
+
+    def retheme(self) -> None:
+        """Draw all pictures in the present colours."""
+        self.run_method("retheme")
+
+    def choose(self) -> None:
+        """Open the browser's dialog for files."""
+        self.run_method("choose")
+
+
+def style_sheet() -> str:
+    """Return the style of the page."""
+    return (_STATIC / "app.css").read_text(encoding="utf-8")

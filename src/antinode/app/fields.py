@@ -1,0 +1,178 @@
+"""The column of inputs: a slider and a field with a unit for each, and what is wrong beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from nicegui import ui
+
+from antinode.case import Case
+from antinode.condition import resolve_cavitation
+
+from .display import number_text, shown_unit
+from .inputs import Input
+from .session import Session
+from .state import Value
+
+
+class Field:
+    """One input: label, field, slider, message.
+
+    Parameters
+    ----------
+    item : Input
+    session : Session
+    """
+
+    def __init__(self, item: Input, session: Session) -> None:
+        self.item, self._session = item, session
+        self.unit = shown_unit(item.unit, session.state.view.units)
+        named = f"{item.label} [{self.unit.name}]" if self.unit.name else item.label
+        with ui.element("div").classes("an-field") as self._box:
+            with ui.element("div").classes("an-fieldhead"):
+                ui.label(item.label).classes("an-label")
+                self._text = (
+                    ui.input(value=self._shown(item.value))
+                    .props(f'dense borderless aria-label="{named}" suffix="{self.unit.name}"')
+                    .props('input-class="an-number" maxlength=60')
+                    .classes("an-input")
+                    .mark(item.path)
+                )
+            self._slider = (
+                ui.slider(min=self._of(item.low), max=self._of(item.high), step=self._of(item.step))
+                .props(f'dense aria-label="{named}"')
+                .mark(f"slider {item.path}")
+                .classes("an-slider")
+            )
+            self._slider.props("thumb-size=14px track-size=3px").value = self._of(item.value)
+            self._message = ui.label("").classes("an-message").props('role="alert"')
+            self._message.visible = False
+        self._text.on("keydown.enter", self._typed)
+        self._text.on("blur", self._typed)
+        self._slider.on_value_change(self._slid)
+        self._slider.on("change", session.history.end_gesture, [])
+
+    def _of(self, value: float) -> float:
+        return float(f"{self.unit.of(value):.6g}")
+
+    def _shown(self, value: float) -> str:
+        return number_text(self.unit.of(value))
+
+    def _slid(self) -> None:
+        value = self._slider.value
+        if value is None or value == self._of(self.item.value):
+            return
+        new = float(f"{value * self.unit.factor:.12g}")
+        self.item = self.item._replace(value=new)
+        self._text.value = self._shown(new)
+        self._session.change({self.item.path: new}, moving=self.item.path)
+
+    def _typed(self) -> None:
+        text = str(self._text.value or "").strip()
+        if text == self._shown(self.item.value) and not self._message.visible:
+            return
+        try:
+            value: Value = float(f"{float(text) * self.unit.factor:.12g}")
+        except ValueError:
+            value = text
+        self._session.change({self.item.path: value})
+
+    def refresh(self, item: Input, moving: bool) -> None:
+        """Show a value that came from elsewhere."""
+        self.item = item
+        if moving:
+            return
+        value = self._of(item.value)
+        for key, end in (("min", item.low), ("max", item.high)):
+            if self._slider.props[key] != self._of(end):
+                self._slider.props[key] = self._of(end)
+        if self._slider.value != value:
+            self._slider.value = value
+        if self._text.value != self._shown(item.value):
+            self._text.value = self._shown(item.value)
+
+    def complain(self, sentence: str) -> None:
+        """Mark the field as wrong, or as right again."""
+        self._message.text = sentence
+        self._message.visible = bool(sentence)
+        self._box.classes(add="an-wrong" if sentence else "", remove="" if sentence else "an-wrong")
+        self._text.props(f'aria-invalid="{str(bool(sentence)).lower()}"')
+
+
+class Fields:
+    """All inputs of a problem, rebuilt when other inputs are wanted.
+
+    Parameters
+    ----------
+    session : Session
+    """
+
+    def __init__(self, session: Session, rebuilt: Callable[[], None] | None = None) -> None:
+        self._session, self._rebuilt = session, rebuilt
+        self._fields: dict[str, Field] = {}
+        self._kind: tuple[object, ...] = ()
+        self._box = ui.element("div").classes("an-fields")
+
+    def refresh(self, items: tuple[Input, ...], moving: str) -> None:
+        """Show the present values; build the fields anew where other ones are needed."""
+        kind = (*(item.path for item in items), self._session.state.view.units)
+        if kind != self._kind:
+            self._build(items)
+            self._kind = kind
+        for item in items:
+            self._fields[item.path].refresh(item, item.path == moving)
+
+    def _build(self, items: tuple[Input, ...]) -> None:
+        self._box.clear()
+        self._fields.clear()
+        with self._box:
+            for item in items:
+                if item.path in ("condition.cavitation_number", "condition.depth"):
+                    self._switch(item.path)
+                self._fields[item.path] = Field(item, self._session)
+            self._other = ui.label("").classes("an-message an-other").props('role="alert"')
+            self._other.visible = False
+
+    def _switch(self, path: str) -> None:
+        """Let the user choose between cavitation number and depth."""
+        options = {"condition.cavitation_number": "σ", "condition.depth": "depth"}
+        with ui.element("div").classes("an-switch"):
+            ui.toggle(options, value=path, on_change=lambda e: self._swap(str(e.value))).props(
+                'dense flat no-caps size=sm aria-label="give cavitation number or depth"'
+            ).mark("cavitation")
+
+    def _swap(self, path: str) -> None:
+        """Give depth in place of the cavitation number, or the other way; nothing else changes."""
+        case = self._session.state.problem
+        if isinstance(case, Case):
+            self._session.change(swapped_cavitation(case, path))
+
+    def complain(self, path: str, sentence: str) -> None:
+        """Say what is wrong at its field, or below all of them."""
+        for name, field in self._fields.items():
+            field.complain(sentence if name == path else "")
+        if self._fields:
+            elsewhere = sentence if path not in self._fields else ""
+            self._other.text = elsewhere
+            self._other.visible = bool(elsewhere)
+
+
+def swapped_cavitation(case: Case, path: str) -> dict[str, Value]:
+    """Return changes that give the same state by cavitation number, or by depth and pressure."""
+    sigma = case.loads.sigma
+    if path == "condition.cavitation_number":
+        return {path: sigma, "condition.depth": None, "condition.cavity_pressure": None}
+    state, water = resolve_cavitation(case.condition, case.water), case.water
+    depth = state.depth if state.depth is not None else 10.0
+    static = water.atmospheric_pressure + water.density * water.gravity * depth
+    pressure = static - sigma * water.density * case.condition.speed**2 / 2
+    if pressure < 0:  # deeper, so that the pressure in the cavity is the vapour pressure
+        pressure = water.vapour_pressure
+        depth += (sigma * water.density * case.condition.speed**2 / 2 + pressure - static) / (
+            water.density * water.gravity
+        )
+    return {
+        "condition.cavitation_number": None,
+        "condition.depth": float(f"{depth:.6g}"),
+        "condition.cavity_pressure": float(f"{pressure:.9g}"),
+    }

@@ -1,0 +1,457 @@
+"""The page: head, inputs on the left, pictures in a grid; what each control does.
+
+Everything is built once; afterwards only data travel. Colours, type and layout are in
+static/app.css, what is drawn in a picture in the scripts beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from nicegui import events, ui
+from nicegui.client import Client
+
+from antinode.errors import AntinodeError, InputError
+from antinode.examples import EXAMPLES
+
+from .display import SYSTEMS
+from .elements import Board, Picture, style_sheet
+from .fields import Fields
+from .inputs import Input, numbers
+from .save import case_toml, result_file
+from .session import Session
+from .source import MOST_BYTES, read_dropped, read_example
+from .state import State
+from .stations import StationsDialog
+
+_COMPONENTS = {
+    "bending": {0: "Y", 1: "θ", 2: "M", 3: "Q"},
+    "longitudinal": {0: "X", 1: "Q"},
+}
+
+
+class Page:
+    """One open page.
+
+    Parameters
+    ----------
+    state : State
+        What it shows first.
+    complaint : str
+        What was wrong with the link that opened it; empty if nothing.
+    """
+
+    def __init__(self, state: State, complaint: str = "") -> None:
+        ui.add_css(style_sheet())
+        self._client: Client = ui.context.client
+        self._dark = ui.dark_mode(state.view.dark)
+        self.session = Session(state, self)
+        self._playing = False
+        with ui.element("div").classes("an-app"):
+            self._board = Board()
+            self._board.on("ready", self._ready)
+            self._upload = _uploader(self._dropped)
+            self._head = ui.element("header").classes("an-head")
+            self._side = ui.element("aside").classes("an-side").props('aria-label="Inputs"')
+            self._main = ui.element("main").classes("an-main")
+        self._stations = StationsDialog(self.session)
+        self._build()
+        ui.keyboard(on_key=self._key)
+        if complaint:
+            self._note(complaint)
+
+    # --- what the session asks for ----------------------------------------------------------
+
+    def apply(self, patch: dict[str, Any]) -> None:
+        """Send new data to the pictures."""
+        self._board.apply(patch)
+
+    def refresh(self, problem_inputs: tuple[Input, ...], moving: str) -> None:
+        """Show the present values in the fields."""
+        with self._client:
+            self._fields.refresh(problem_inputs, moving)
+            self._undo.set_enabled(self.session.history.can_undo)
+            pinned = bool(self.session.state.view.baseline)
+            self._pin.text = "Unpin" if pinned else "Pin"
+
+    def complain(self, path: str, sentence: str) -> None:
+        """Mark what is wrong at its field."""
+        with self._client:
+            self._fields.complain(path, sentence)
+            self._undo.set_enabled(self.session.history.can_undo)
+
+    # --- building ---------------------------------------------------------------------------
+
+    def _build(self) -> None:
+        """Build head, side and pictures for the present file."""
+        for box in (self._head, self._side, self._main):
+            box.clear()
+        vehicle = self.session.state.is_vehicle
+        self._main.classes(
+            add="an-vehicle" if vehicle else "an-beam",
+            remove="an-beam" if vehicle else "an-vehicle",
+        )
+        with self._head:
+            self._build_head()
+        with self._side:
+            self._build_side()
+        with self._main:
+            self._build_pictures(vehicle)
+
+    def _build_head(self) -> None:
+        state = self.session.state
+        ui.html('<span class="an-logo" aria-hidden="true"></span>', sanitize=False)
+        ui.label("antinode").classes("an-wordmark")
+        name = _name(state)
+        ui.label(name).classes("an-casename").props('role="heading" aria-level="1"')
+        what = "vehicle in motion" if state.is_vehicle else "beam"
+        ui.label(f"{state.file.origin} · {what}").classes("an-origin")
+        ui.space()
+        with _button("Open", "folder_open"), ui.menu().props("auto-close"):
+            ui.menu_item("A file … (or drop it on the page)", self._board.choose)
+            ui.separator()
+            for example in EXAMPLES:
+                ui.menu_item(f"Example: {example.replace('_', ' ')}", self._opener(example))
+        _button("Stations", "table_rows", self._stations.open)
+        self._undo = _button("Undo", "undo", self.session.undo)
+        with _button("Save", "download"), ui.menu().props("auto-close"):
+            ui.menu_item("The case, as TOML", self._save_case)
+            ui.separator()
+            for ending, what in ((".csv", "table"), (".json", "all numbers"), (".nc", "shapes")):
+                ui.menu_item(f"Results, {ending} ({what})", self._saver(ending))
+        _button("Link", "link", self._copy_link)
+        ui.separator().props("vertical").classes("an-rule")
+        ui.select(list(SYSTEMS), value=state.view.units, on_change=self._units).props(
+            'dense borderless options-dense aria-label="Units"'
+        ).classes("an-units").mark("units")
+        dark = ui.button(icon="dark_mode", color=None, on_click=self._toggle_dark)
+        dark.props('flat dense round aria-label="Dark or light"').mark("dark")
+
+    def _build_side(self) -> None:
+        vehicle = self.session.state.is_vehicle
+        with _section("Condition" if vehicle else "Loads and attachments"):
+            hint = "Move a slider, or type a number, with its own unit if you like."
+            ui.label(hint).classes("an-hint")
+            self._fields = Fields(self.session)
+            if not vehicle:
+                self._ends()
+        with _section("Equipment band and excitation [Hz]"):
+            self._equipment()
+        with ui.element("section").classes("an-section an-notes"):
+            Picture("notes", "Results, warnings and ranges of validity", role="region")
+
+    def _ends(self) -> None:
+        """Let the user choose how a beam is held."""
+        ends = self.session.state.original
+        held = getattr(getattr(ends, "table", None), "ends", None)
+        choices = ["free", "pinned", "sliding", "clamped"]
+        with ui.element("div").classes("an-pairs"):
+            for side in ("left", "right"):
+                ui.select(
+                    choices,
+                    value=getattr(held, side, "free"),
+                    label=f"{side} end",
+                    on_change=self._end_setter(side),
+                ).props("dense options-dense outlined").classes("an-choice").mark(f"end {side}")
+
+    def _end_setter(self, side: str) -> Callable[[events.ValueChangeEventArguments[Any]], None]:
+        return lambda e: self.session.change({f"beam.ends.{side}": str(e.value)})
+
+    def _equipment(self) -> None:
+        view = self.session.state.view
+        low, high = (f"{v:g}" for v in view.band) if view.band else ("", "")
+        lines = ", ".join(f"{v:g}" for v in view.lines)
+        with ui.element("div").classes("an-four"):
+            self._band = [
+                _small_field(label, value, self._set_equipment)
+                for label, value in (("from", low), ("to", high))
+            ]
+            self._lines = _small_field("lines", lines, self._set_equipment)
+            self._margin = _small_field("± %", f"{100 * view.margin:g}", self._set_equipment)
+        self._equipment_message = ui.label("").classes("an-message").props('role="alert"')
+        self._equipment_message.visible = False
+
+    def _build_pictures(self, vehicle: bool) -> None:
+        view = self.session.state.view
+        if vehicle:
+            title = "Vehicle in its cavity, to scale, with the forces on it"
+            with _card("vehicle", title):
+                pass
+        with _card("frequencies", "Frequencies"):
+            ui.toggle(
+                {"bending": "Bending", "longitudinal": "Longitudinal"},
+                value=view.family,
+                on_change=lambda e: self._family(str(e.value)),
+            ).props(_SMALL).mark("family")
+            self._pin = ui.button("Pin", color=None, on_click=self.session.pin).props(
+                'flat dense no-caps size=sm aria-label="Pin the frequencies as baseline"'
+            )
+        with _card("modes", "Mode shapes"):
+            self._mode_buttons()
+            self._component = (
+                ui.select(
+                    _COMPONENTS[view.family],
+                    value=view.component,
+                    on_change=lambda e: self.session.look(component=e.value or 0),
+                )
+                .props('dense borderless options-dense aria-label="Quantity of the shapes"')
+                .classes("an-pick")
+            )
+            self._play = ui.button(icon="play_arrow", color=None, on_click=self._toggle_play).props(
+                'flat dense round size=sm aria-label="Let the modes vibrate"'
+            )
+        with _card("forces", "Forces inside the body" if vehicle else "Axial force"):
+            pass
+        with _card("curve", "Frequencies [Hz] against"):
+            self._curve_select()
+        with _card("characteristic", "Characteristic function, zero at every mode"):
+            pass
+        with _card("body", "Body in mode"):
+            count = self._modes_shown()
+            ui.select(
+                list(range(1, count + 1)),
+                value=min(view.body, count),
+                on_change=lambda e: self.session.look(body=int(e.value or 1)),
+            ).props('dense borderless options-dense aria-label="Mode of the 3-D view"').classes(
+                "an-pick an-narrow"
+            )
+            ui.label("turn with the mouse").classes("an-hint")
+
+    def _modes_shown(self) -> int:
+        return min(self.session.state.original.solve.modes, 6)
+
+    def _mode_buttons(self) -> None:
+        """Build one button a mode, pressed where its shape is drawn."""
+        view = self.session.state.view
+        self._buttons = {}
+        with ui.element("div").classes("an-modes").props('role="group" aria-label="Modes drawn"'):
+            for number in range(1, self._modes_shown() + 1):
+                button = ui.button(str(number), color=None, on_click=self._toggler(number))
+                button.props("flat dense size=sm").classes(f"an-modebutton an-c{number}")
+                self._buttons[number] = button
+                self._press(number, number in view.modes)
+
+    def _press(self, number: int, pressed: bool) -> None:
+        button = self._buttons[number]
+        button.classes(add="an-pressed" if pressed else "", remove="" if pressed else "an-pressed")
+        state = str(pressed).lower()
+        button.props(f'aria-pressed="{state}" aria-label="mode {number}"')
+
+    def _curve_select(self) -> None:
+        every = {item.path: item.label for item in numbers(self.session.state.original)}
+        chosen = self.session.state.view.curve
+        default = next((p for p in every if p == "condition.thrust"), next(iter(every), None))
+        ui.select(
+            every,
+            value=chosen if chosen in every else default,
+            on_change=lambda e: self.session.look(curve=str(e.value or "")),
+        ).props('dense borderless options-dense aria-label="Input of the curve"').classes(
+            "an-pick an-wide"
+        ).mark("curve")
+
+    # --- what the controls do ---------------------------------------------------------------
+
+    def _ready(self) -> None:
+        self.session.again()
+
+    def _family(self, family: str) -> None:
+        self._component.set_options(_COMPONENTS[family], value=0)
+        self.session.look(family=family, component=0)
+
+    def _toggler(self, number: int) -> Callable[[], None]:
+        def toggle() -> None:
+            chosen = set(self.session.state.view.modes) ^ {number}
+            self._press(number, number in chosen)
+            self.session.look(modes=tuple(sorted(chosen)))
+
+        return toggle
+
+    def _toggle_play(self) -> None:
+        self._playing = not self._playing
+        self._play.props(f"icon={'pause' if self._playing else 'play_arrow'}")
+        self._board.play(self._playing)
+
+    def _units(self, event: events.ValueChangeEventArguments[Any]) -> None:
+        self.session.look(units=event.value)
+
+    def _toggle_dark(self) -> None:
+        dark = not self.session.state.view.dark
+        self._dark.value = dark
+        self.session.look(dark=dark)
+        self._board.retheme()
+
+    def _set_equipment(self) -> None:
+        """Take band, lines and margin, or say what is wrong with them."""
+        try:
+            how = equipment(
+                *(str(field.value or "") for field in (*self._band, self._lines, self._margin))
+            )
+        except InputError as error:
+            self._equipment_message.text = str(error)
+            self._equipment_message.visible = True
+            return
+        self._equipment_message.visible = False
+        self.session.look(**how)
+
+    def _opener(self, example: str) -> Callable[[], None]:
+        return lambda: self._open(lambda: read_example(example))
+
+    async def _dropped(self, event: events.MultiUploadEventArguments) -> None:
+        files = {file.name: await file.read() for file in event.files}
+        self._open(lambda: read_dropped(files))
+        self._upload.reset()
+
+    def _open(self, read: Callable[[], Any]) -> None:
+        """Open another file; a wrong one changes nothing."""
+        try:
+            file = read()
+        except AntinodeError as error:
+            self._note(str(error))
+            return
+        self.session.open(file)
+        self._build()
+
+    def _save_case(self) -> None:
+        try:
+            text = case_toml(self.session.state)
+        except AntinodeError as error:
+            self._note(str(error))
+            return
+        ui.download.content(text, "case.toml" if self.session.state.is_vehicle else "beam.toml")
+
+    def _saver(self, ending: str) -> Callable[[], Any]:
+        async def save() -> None:
+            try:
+                content = result_file(await self.session.full(), ending)
+            except AntinodeError as error:
+                self._note(str(error))
+                return
+            ui.download.content(content, f"modes{ending}")
+
+        return save
+
+    def _copy_link(self) -> None:
+        try:
+            self.session.state.query()
+        except AntinodeError as error:
+            self._note(str(error))
+            return
+        ui.run_javascript("navigator.clipboard?.writeText(location.href)")
+        ui.notify("The link is copied; it brings this view back.", position="bottom-right")
+
+    def _note(self, sentence: str) -> None:
+        with self._client:
+            ui.notify(
+                sentence,
+                type="negative",
+                multi_line=True,
+                close_button="Close",
+                timeout=0,
+                position="top",
+                classes="an-toast",
+            )
+
+    def _key(self, event: events.KeyEventArguments) -> None:
+        if not event.action.keydown or event.action.repeat:
+            return
+        command = event.modifiers.ctrl or event.modifiers.meta
+        if command and event.key == "z":
+            self.session.undo()
+        elif not command and event.key == "p":
+            self.session.pin()
+        elif not command and event.key == "v":
+            self._toggle_play()
+
+
+_SMALL = "dense flat no-caps size=sm"
+
+
+def _name(state: State) -> str:
+    try:
+        return state.original.beam().name
+    except AntinodeError:
+        return state.file.origin
+
+
+def _button(text: str, icon: str, click: Callable[[], Any] | None = None) -> ui.button:
+    button = ui.button(text, icon=icon, color=None, on_click=click)
+    return button.props("flat dense no-caps").classes("an-headbutton").mark(text.lower())
+
+
+@contextmanager
+def _section(title: str) -> Iterator[None]:
+    with ui.element("section").classes("an-section"):
+        ui.label(title).classes("an-title").props('role="heading" aria-level="2"')
+        yield
+
+
+@contextmanager
+def _card(kind: str, title: str) -> Iterator[None]:
+    """Build a panel: its title with controls beside it, and its picture below."""
+    role = "region" if kind == "frequencies" else "img"
+    with ui.element("section").classes(f"an-card an-at-{kind}"):
+        with ui.element("div").classes("an-cardhead"):
+            ui.label(title).classes("an-title").props('role="heading" aria-level="2"')
+            yield
+        Picture(kind, title, role=role)
+
+
+def _small_field(label: str, value: str, taken: Callable[[], None]) -> ui.input:
+    field = ui.input(label, value=value).props(f'dense outlined aria-label="{label}" maxlength=80')
+    field.on("keydown.enter", taken)
+    field.on("blur", taken)
+    return field.classes("an-small").mark(label.partition(" [")[0])
+
+
+def _uploader(taken: Callable[[events.MultiUploadEventArguments], Any]) -> ui.upload:
+    return (
+        ui.upload(
+            multiple=True,
+            auto_upload=True,
+            max_total_size=MOST_BYTES,
+            max_files=10,
+            on_multi_upload=taken,
+            on_rejected=lambda: ui.notify(
+                f"These files are refused: at most 10, and {MOST_BYTES / 1e6:g} MB together.",
+                type="negative",
+            ),
+        )
+        .classes("an-upload")
+        .props('aria-hidden="true" accept=".toml,.csv"')
+    )
+
+
+def equipment(low: str, high: str, lines: str, margin: str) -> dict[str, Any]:
+    """Read band [Hz], excitation lines [Hz] and margin [%] as they were typed.
+
+    Raises
+    ------
+    InputError
+        If one of them is wrong.
+    """
+    ends = [_hertz("equipment band", text) for text in (low, high) if text.strip()]
+    if len(ends) == 1:
+        raise InputError("equipment band: one end is missing; give both, or none")
+    if len(ends) == 2 and ends[0] >= ends[1]:
+        raise InputError(f"equipment band: {low} to {high} Hz is empty; give the lower end first")
+    found = [
+        _hertz("excitation lines", text)
+        for text in lines.replace(";", ",").split(",")
+        if text.strip()
+    ]
+    share = _hertz("margin", margin.replace("%", "") or "0") / 100
+    if share > 0.5:
+        raise InputError(f"margin: received {margin} %; at most 50 % is allowed")
+    return {"band": tuple(ends) or None, "lines": tuple(found), "margin": share}
+
+
+def _hertz(what: str, text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0 <= value < 1e6:
+        raise InputError(f"{what}: received '{text.strip()[:30]}'; give a number of at least 0")
+    return value

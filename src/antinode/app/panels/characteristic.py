@@ -1,0 +1,23 @@
+"""The characteristic function over frequency, scaled so that all its zeros show, and its roots."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from antinode.app.compute import Picture
+
+from .numbers import pairs, short_list
+
+
+def characteristic_data(picture: Picture) -> dict[str, Any]:
+    """Return the function, scaled to sign(y) |y|^(1/3) of its largest value, and the roots."""
+    hertz, values = picture.characteristic
+    size = np.max(np.abs(values)) or 1.0
+    omega2 = picture.quick.omega2
+    return {
+        "points": pairs(hertz, np.cbrt(values / size)),
+        "roots": short_list(np.sqrt(omega2[omega2 > 0]) / (2 * np.pi), 6),
+        "divergent": int(np.sum(omega2 < 0)),
+    }

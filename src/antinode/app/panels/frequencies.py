@@ -1,0 +1,92 @@
+"""Frequencies as a table with bars beside a pinned baseline; modes near an excitation flagged."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from antinode.app.compute import Picture
+from antinode.app.state import View
+from antinode.result import Mode, error_of_root, hertz
+
+
+class Row(NamedTuple):
+    """A mode of the table: name, omega^2, its error, shift by the axial force."""
+
+    name: str
+    omega2: float
+    error_omega2: float
+    shift: float
+
+
+def frequencies_data(picture: Picture, view: View) -> dict[str, Any]:
+    """Return rows, bars, band and excitation lines."""
+    rows = frequency_rows(picture, view.family)
+    baseline = dict(view.baseline)
+    shown = [_shown(row, baseline.get(row.name), view) for row in rows]
+    marks = [*(view.band or ()), *view.lines, *(r["baseline"] or 0.0 for r in shown)]
+    top = max([r["hz"] or 0.0 for r in shown] + marks, default=1.0) or 1.0
+    return {
+        "family": view.family,
+        "rows": shown,
+        "top": 1.06 * top,
+        "band": list(view.band) if view.band else None,
+        "lines": list(view.lines),
+        "margin": view.margin,
+        "pinned": bool(baseline),
+        "quick": picture.full is None,
+    }
+
+
+def frequency_rows(picture: Picture, family: str) -> list[Row]:
+    """Return the modes 1, 2, ... of a family; of the quick picture only bending ones."""
+    if picture.full is not None:
+        modes = [mode for mode in picture.full.modes if mode.family == family and mode.number]
+        return [_row(mode) for mode in modes[:12]]
+    if family != "bending":
+        return []
+    quick = picture.quick
+    values = zip(quick.omega2.tolist(), quick.error.tolist(), strict=True)
+    return [Row(f"bending {n}", w2, e, math.nan) for n, (w2, e) in enumerate(values, 1)]
+
+
+def _row(mode: Mode) -> Row:
+    return Row(mode.name, mode.omega2, mode.error_omega2, mode.shift)
+
+
+def _shown(row: Row, baseline: float | None, view: View) -> dict[str, Any]:
+    frequency = hertz(row.omega2)
+    divergent = math.isnan(frequency)
+    error = math.nan if divergent else error_of_root(row.omega2, row.error_omega2) / (2 * math.pi)
+    return {
+        "name": row.name,
+        "number": row.name.rpartition(" ")[2],
+        "hz": None if divergent else frequency,
+        "text": "divergent" if divergent else f"{frequency:.6g}",
+        "error": "" if divergent else f"{error:.0e}",
+        "shift": "" if math.isnan(row.shift) else f"{row.shift:+.1%}",
+        "baseline": baseline,
+        "change": ""
+        if divergent or not baseline
+        else f"{frequency / baseline - 1:+.2%}".replace("-0.00%", "0.00%").replace(
+            "+0.00%", "0.00%"
+        ),
+        "flag": "" if divergent else flag(frequency, view),
+    }
+
+
+def flag(frequency: float, view: View) -> str:
+    """Say that a frequency lies in the equipment band, or within the margin of band or line."""
+    if view.band and view.band[0] <= frequency <= view.band[1]:
+        return "in the equipment band"
+    for mark in (*(view.band or ()), *view.lines):
+        if abs(frequency - mark) <= view.margin * mark:
+            return f"within {view.margin:.0%} of {mark:g} Hz"
+    return ""
+
+
+def baseline_of(picture: Picture) -> tuple[tuple[str, float], ...]:
+    """Return the frequencies of a picture, to be pinned."""
+    families = ("bending", "longitudinal") if picture.full else ("bending",)
+    rows = [row for family in families for row in frequency_rows(picture, family)]
+    return tuple((row.name, float(f"{hertz(row.omega2):.7g}")) for row in rows if row.omega2 >= 0)

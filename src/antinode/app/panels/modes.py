@@ -1,0 +1,63 @@
+"""Shapes of chosen modes: displacement, slope, moment or force, each with its largest value 1."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from antinode.app.compute import Picture
+from antinode.app.display import shown_unit
+from antinode.app.state import View
+from antinode.result import COMPONENTS
+
+from .numbers import pairs, thinned
+
+
+def modes_data(picture: Picture, view: View) -> dict[str, Any]:
+    """Return the curves of the modes that the view asks for."""
+    family = view.family if picture.full else "bending"
+    x, shapes, labels = _shapes(picture, view, family)
+    factor = shown_unit("m", view.units).factor
+    names = COMPONENTS[family]
+    component = min(view.component, len(names) - 1)
+    return {
+        "unit": shown_unit("m", view.units).name,
+        "origin": "nose" if picture.case else "left end",
+        "component": names[component][0],
+        "meaning": names[component][2],
+        "curves": [
+            {
+                "number": number,
+                "label": label,
+                "points": pairs(*thinned(x / factor, _largest_one(shape[:, component]))),
+            }
+            for number, label, shape in zip(view.modes, labels, shapes, strict=False)
+            if shape is not None
+        ],
+    }
+
+
+def _shapes(
+    picture: Picture, view: View, family: str
+) -> tuple[np.ndarray, list[np.ndarray | None], list[str]]:
+    """Return x, and of every mode asked for its states and a label; None where there is none."""
+    if family == "bending":
+        quick = picture.quick
+        count = len(quick.omega2)
+        shapes = [quick.states[:, n - 1] if n <= count else None for n in view.modes]
+        labels = [_label(float(quick.omega2[n - 1])) if n <= count else "" for n in view.modes]
+        return quick.x, shapes, labels
+    assert picture.full is not None
+    found = {mode.number: mode for mode in picture.full.family("longitudinal")}
+    modes = [found.get(n) for n in view.modes]
+    shapes = [None if mode is None else mode.states for mode in modes]
+    return picture.full.x, shapes, ["" if m is None else _label(m.omega2) for m in modes]
+
+
+def _label(omega2: float) -> str:
+    return f"{np.sqrt(omega2) / (2 * np.pi):.4g} Hz" if omega2 >= 0 else "divergent"
+
+
+def _largest_one(values: np.ndarray) -> np.ndarray:
+    return np.asarray(values / (np.max(np.abs(values)) or 1.0))

@@ -1,0 +1,267 @@
+"""One open page: takes changes, computes beside the event loop, sends what changed.
+
+A moving slider gets the quick picture and a coarse curve. Once it rests, the full one follows and
+the curve grows finer. A newer change ends the work on an older one at the next step.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Protocol
+from urllib.parse import urlencode
+
+from antinode.errors import AntinodeError, InputError
+
+from .compute import Picture, full_picture, quick_picture
+from .curve import Curve, curve_key, grow_curve
+from .inputs import Input, numbers, sliders
+from .panels.characteristic import characteristic_data
+from .panels.curve import cursor_data, curve_data
+from .panels.forces import forces_data
+from .panels.frequencies import baseline_of, frequencies_data
+from .panels.modes import modes_data
+from .panels.notes import notes_data
+from .panels.numbers import short_list
+from .panels.vehicle import vehicle_data
+from .scene3d import body_data
+from .state import File, History, State, Value, fields_of
+
+_workers = ThreadPoolExecutor(max_workers=2, thread_name_prefix="antinode")
+_SETTLED = 0.2
+"""Time without a change after which the full result is computed [s]."""
+
+
+class Face(Protocol):
+    """What a session needs of its page."""
+
+    def apply(self, patch: dict[str, Any]) -> None:
+        """Send new data to the pictures."""
+
+    def refresh(self, problem_inputs: tuple[Input, ...], moving: str) -> None:
+        """Show the present values in the fields."""
+
+    def complain(self, path: str, sentence: str) -> None:
+        """Mark what is wrong at its field; an empty sentence takes the mark away."""
+
+
+class Session:
+    """The state of one open page and the work on it.
+
+    Parameters
+    ----------
+    state : State
+    face : Face
+    """
+
+    def __init__(self, state: State, face: Face) -> None:
+        self.history = History(state)
+        self.picture: Picture | None = None
+        self.inputs: tuple[Input, ...] = ()
+        self.error = ""
+        self._face = face
+        self._sent: dict[str, str] = {}
+        self._version = 0
+        self._sequence = 0
+        self._moved = ""
+        self._task: asyncio.Task[None] | None = None
+        self._curve: Curve | None = None
+
+    @property
+    def state(self) -> State:
+        """The present state."""
+        return self.history.state
+
+    # --- changes ------------------------------------------------------------------------------
+
+    def change(self, changes: Mapping[str, Value], moving: str = "") -> None:
+        """Take new values; `moving` names the slider that is being dragged."""
+        self._moved = next(iter(changes), "")
+        self.history.put(self.state.changed(changes), gesture=moving)
+        self._start()
+
+    def look(self, **how: Any) -> None:
+        """Look at the same problem in another way."""
+        self.history.look(self.state.viewed(**how))
+        self._start()
+
+    def open(self, file: File) -> None:
+        """Open another file; its sliders start anew, the view stays but for the baseline."""
+        view = self.state.view.model_copy(update={"baseline": (), "curve": ""})
+        self.history.put(State(file, {}, view))
+        self.forget()
+        self._start()
+
+    def undo(self) -> None:
+        """Take the last change back."""
+        self.history.undo()
+        self._start()
+
+    def pin(self) -> None:
+        """Pin the present frequencies as the baseline, or take the pin out."""
+        pinned = bool(self.state.view.baseline)
+        if self.picture:
+            self.look(baseline=() if pinned else baseline_of(self.picture))
+
+    def forget(self) -> None:
+        """Forget what the browser has: everything is sent anew."""
+        self._sent.clear()
+
+    def again(self) -> None:
+        """Send everything that there is."""
+        self.forget()
+        self._start()
+
+    # --- work ---------------------------------------------------------------------------------
+
+    def _start(self) -> None:
+        self._version += 1
+        if self._task is None or self._task.done():
+            self._task = asyncio.get_running_loop().create_task(self._work())
+
+    async def _work(self) -> None:
+        while True:
+            version, state = self._version, self.state
+            for step in (self._quick, self._coarse_curve, self._settled, self._full, self._curves):
+                if not await step(state) or version != self._version:
+                    break
+            if version == self._version:
+                return
+
+    async def _quick(self, state: State) -> bool:
+        return await self._show(state, quick_picture, "")
+
+    async def _settled(self, state: State) -> bool:
+        await asyncio.sleep(_SETTLED)
+        return True
+
+    async def _full(self, state: State) -> bool:
+        done = await self._show(state, full_picture, "")
+        self._send({}, address=self._address(state))
+        return done
+
+    async def _show(self, state: State, compute: Callable[[State], Picture], _: str) -> bool:
+        """Compute a picture and send it; on an error say so and keep the last one."""
+        try:
+            picture, data, inputs = await self._run(lambda: self._data(state, compute(state)))
+        except AntinodeError as error:
+            self._fail(str(error))
+            return False
+        except Exception as error:
+            self._fail(f"{type(error).__name__}: {error}; this is a bug in antinode")
+            return False
+        self.picture, self.inputs, self.error = picture, inputs, ""
+        self._face.complain("", "")
+        self._send(data, stale=False)
+        self._face.refresh(inputs, self._moved)
+        return True
+
+    def _fail(self, sentence: str) -> None:
+        self.error = sentence
+        paths = (*(item.path for item in self.inputs), *self.state.changes)
+        self._face.complain(fields_of(sentence, paths) or self._moved, sentence)
+        self._send({}, stale=True)
+
+    def _data(
+        self, state: State, picture: Picture
+    ) -> tuple[Picture, dict[str, Any], tuple[Input, ...]]:
+        """Work out what every panel shows."""
+        view, inputs = state.view, sliders(state.problem, state.original)
+        data = {
+            "forces": forces_data(picture, view.units),
+            "modes": modes_data(picture, view),
+            "frequencies": frequencies_data(picture, view),
+            "characteristic": characteristic_data(picture),
+            "notes": notes_data(picture, view.units),
+            "body": body_data(picture, view.body),
+        }
+        if picture.case is not None:
+            data["vehicle"] = vehicle_data(picture.case, view.units)
+        item = self.curve_input(state, inputs)
+        if item is not None:
+            data["curve"] = self._curve_patch(state, item, picture)
+        return picture, data, inputs
+
+    def curve_input(self, state: State, inputs: tuple[Input, ...]) -> Input | None:
+        """Return the input that the curve runs over."""
+        chosen = state.view.curve or next((i.path for i in inputs if "thrust" in i.path), "")
+        every = {**{i.path: i for i in numbers(state.problem)}, **{i.path: i for i in inputs}}
+        return every.get(chosen, inputs[0] if inputs else None)
+
+    def _curve_patch(self, state: State, item: Input, picture: Picture) -> dict[str, Any]:
+        omega2 = picture.quick.omega2
+        hertz = [None if w < 0 else (w**0.5) / 6.283185307179586 for w in omega2.tolist()]
+        shown = [None if h is None else short_list([h], 5)[0] for h in hertz]
+        patch: dict[str, Any] = {"cursor": cursor_data(item, shown, state.view.units)}
+        curve = self._curve
+        if curve is not None and curve.key == curve_key(state, item):
+            patch["curve"] = curve_data(curve, item, state.view.units)
+        return patch
+
+    async def _coarse_curve(self, state: State) -> bool:
+        return await self._grow(state, 1)
+
+    async def _curves(self, state: State) -> bool:
+        return await self._grow(state, 4)
+
+    async def _grow(self, state: State, levels: int) -> bool:
+        """Compute the curve so far that it has so many levels, and send each of them."""
+        item, picture = self.curve_input(state, self.inputs), self.picture
+        if item is None or picture is None:
+            return True
+        version, key = self._version, curve_key(state, item)
+        have = self._curve.key == key if self._curve else False
+        points = len(self._curve.values) if self._curve and have else 0
+        if points >= 4 * 2 ** (levels - 1) + 1:
+            return True
+        growing = grow_curve(state, item)
+        for _ in range(levels):
+            curve = await self._run(lambda: _following(growing))
+            if curve is None or version != self._version:
+                return False
+            if len(curve.values) > points:
+                self._curve = curve
+                self._send({"curve": self._curve_patch(state, item, picture)})
+        return True
+
+    async def _run(self, work: Callable[[], Any]) -> Any:
+        return await asyncio.get_running_loop().run_in_executor(_workers, work)
+
+    def _send(self, data: Mapping[str, Any], **more: Any) -> None:
+        """Send those parts that differ from what the browser has."""
+        changed = {}
+        for name, part in data.items():
+            text = json.dumps(part)
+            if self._sent.get(name) != text:
+                self._sent[name] = text
+                changed[name] = part
+        extra = {key: value for key, value in more.items() if self._sent.get(key) != str(value)}
+        self._sent |= {key: str(value) for key, value in extra.items()}
+        self._sequence += 1
+        self._face.apply({"pictures": changed, **extra, "sequence": self._sequence})
+
+    def _address(self, state: State) -> str:
+        """Return the page's address: a link that brings this view back."""
+        try:
+            query = urlencode(state.query())
+        except InputError:
+            return "/"
+        return f"/?{query}" if query else "/"
+
+    async def full(self) -> Picture:
+        """Return the full result of the present state.
+
+        Raises
+        ------
+        AntinodeError
+            If there is none.
+        """
+        state = self.state
+        picture: Picture = await self._run(lambda: full_picture(state))
+        return picture
+
+
+def _following(curves: Iterator[Curve]) -> Curve | None:
+    return next(curves, None)

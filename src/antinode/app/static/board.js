@@ -1,0 +1,55 @@
+import { registry } from "antinode-app";
+
+// Takes what the server has computed and hands each part to its picture, all in one go.
+export default {
+  template: `<div hidden></div>`,
+  mounted() {
+    document.fonts.ready.then(() => this.$emit("ready"));
+    this.over = 0;
+    const bar = document.querySelector(".an-app");
+    const files = (e) => [...(e.dataTransfer?.types ?? [])].includes("Files");
+    this.listeners = {
+      dragenter: (e) => files(e) && (e.preventDefault(), this.over++, bar?.classList.add("an-drop")),
+      dragover: (e) => files(e) && e.preventDefault(),
+      dragleave: (e) => files(e) && --this.over <= 0 && bar?.classList.remove("an-drop"),
+      drop: (e) => {
+        if (!files(e)) return;
+        e.preventDefault();
+        this.over = 0;
+        bar?.classList.remove("an-drop");
+        this.$emit("dropped");
+        this.send(e.dataTransfer.files);
+      },
+    };
+    for (const [name, listener] of Object.entries(this.listeners)) window.addEventListener(name, listener);
+  },
+  beforeUnmount() {
+    for (const [name, listener] of Object.entries(this.listeners)) window.removeEventListener(name, listener);
+  },
+  methods: {
+    apply(patch) {
+      for (const [name, data] of Object.entries(patch.pictures ?? {})) registry.show(name, data);
+      if ("stale" in patch) document.querySelector(".an-main")?.classList.toggle("an-stale", patch.stale);
+      if ("address" in patch) window.history.replaceState(window.history.state, "", patch.address);
+      registry.sequence = patch.sequence ?? registry.sequence;
+      requestAnimationFrame(() => requestAnimationFrame(() => (registry.shown = registry.sequence)));
+    },
+    play(on) {
+      for (const view of Object.values(registry.views)) view.play?.(on);
+    },
+    retheme() {
+      requestAnimationFrame(() => registry.retheme());
+    },
+    send(list) {
+      const uploader = document.querySelector(".an-upload input[type=file]");
+      const all = new DataTransfer();
+      for (const file of list) all.items.add(file);
+      if (!uploader) return;
+      uploader.files = all.files;
+      uploader.dispatchEvent(new Event("change", { bubbles: true }));
+    },
+    choose() {
+      document.querySelector(".an-upload input[type=file]")?.click();
+    },
+  },
+};

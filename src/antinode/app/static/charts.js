@@ -1,0 +1,289 @@
+// Line charts: internal forces, mode shapes, the characteristic function, a curve over one input.
+import { echarts } from "nicegui-echart";
+import { FONT, rounded, seriesColour, theme } from "./theme.js";
+
+const label = (t) => ({ color: t.muted, fontSize: 11, fontFamily: FONT, hideOverlap: true });
+
+function axis(t, name, more = {}) {
+  return {
+    type: "value",
+    name,
+    nameLocation: "end",
+    nameTextStyle: { color: t.muted, fontSize: 11, fontFamily: FONT },
+    axisLine: { show: false },
+    axisTick: { show: false },
+    axisLabel: { ...label(t), formatter: rounded },
+    splitLine: { lineStyle: { color: t.line } },
+    ...more,
+  };
+}
+
+function xAxis(t, name, more = {}) {
+  return axis(t, name, {
+    nameLocation: "middle",
+    nameGap: 20,
+    axisLine: { show: true, onZero: false, lineStyle: { color: t.line } },
+    splitLine: { show: false },
+    ...more,
+  });
+}
+
+function tooltip(t, format) {
+  return {
+    trigger: "axis",
+    confine: true,
+    transitionDuration: 0,
+    backgroundColor: t.card,
+    borderColor: t.line,
+    padding: [4, 8],
+    textStyle: { color: t.text, fontSize: 11, fontFamily: FONT },
+    axisPointer: { lineStyle: { color: t.muted, type: "dashed" } },
+    formatter: format,
+  };
+}
+
+// A chart that draws all of its options from its last data: `options(data, theme)`.
+function chart(element, options, quick) {
+  const instance = echarts.init(element);
+  let last = null;
+  let signature = "";
+  const draw = (fresh) => {
+    if (!last) return;
+    const t = theme();
+    const drawn = quick && !fresh ? quick(last, t) : null;
+    if (drawn) instance.setOption(drawn, { lazyUpdate: false });
+    else instance.setOption({ animation: false, textStyle: { fontFamily: FONT }, ...options(last, t) }, true);
+  };
+  return {
+    instance,
+    get data() {
+      return last;
+    },
+    show(data) {
+      last = data;
+      const now = data.signature ?? "";
+      draw(now !== signature || signature === "");
+      signature = now;
+    },
+    draw,
+    retheme: () => draw(true),
+    resize: () => instance.resize(),
+    destroy: () => instance.dispose(),
+  };
+}
+
+export function forces(element) {
+  const names = (data) => data.curves.map((c) => `${c.name}  ${c.title}`);
+  const layout = (data) => {
+    const count = data.curves.length;
+    const room = (element.clientHeight - 38) / count;
+    return data.curves.map((_, k) => ({ left: 58, right: 12, top: 20 + k * room, height: Math.max(20, room - 24) }));
+  };
+  const series = (data, t) =>
+    data.curves.map((c, k) => ({
+      type: "line",
+      xAxisIndex: k,
+      yAxisIndex: k,
+      symbol: "none",
+      lineStyle: { width: 1.6, color: seriesColour(t, k + 1) },
+      areaStyle: { color: seriesColour(t, k + 1), opacity: 0.13 },
+      data: c.points,
+    }));
+  const full = (data, t) => ({
+    grid: layout(data),
+    title: names(data).map((text, k) => ({
+      text,
+      left: 58,
+      top: layout(data)[k].top - 18,
+      textStyle: { color: t.muted, fontSize: 11, fontWeight: 400, fontFamily: FONT },
+      padding: 0,
+    })),
+    xAxis: data.curves.map((c, k) => {
+      const lowest = k === data.curves.length - 1;
+      const ends = { min: c.points[0][0], max: c.points[c.points.length - 1][0] };
+      return xAxis(t, lowest ? `x from the ${data.x.origin} [${data.x.unit}]` : "", {
+        ...ends,
+        gridIndex: k,
+        axisLabel: { ...label(t), show: lowest, formatter: rounded },
+        nameGap: 18,
+      });
+    }),
+    yAxis: data.curves.map((c, k) =>
+      axis(t, "", {
+        gridIndex: k,
+        splitNumber: 2,
+        axisLabel: { ...label(t), formatter: rounded },
+      }),
+    ),
+    graphic: data.curves.map((c, k) => ({
+      type: "text",
+      right: 12,
+      top: layout(data)[k].top - 17,
+      style: { text: `[${c.unit}]`, fill: t.muted, font: `11px ${FONT}` },
+    })),
+    axisPointer: { link: [{ xAxisIndex: "all" }] },
+    tooltip: tooltip(t, (points) => {
+      const p = points[0];
+      const c = data.curves[p.axisIndex ?? p.seriesIndex] ?? data.curves[0];
+      return `x = ${rounded(p.value[0])} ${data.x.unit}<br>${c.name} = <b>${rounded(p.value[1])}</b> ${c.unit}`;
+    }),
+    series: series(data, t),
+  });
+  const it = chart(element, full, (data, t) => ({ series: series(data, t).map((s) => ({ data: s.data })) }));
+  return { ...it, show: (d) => it.show({ ...d, signature: sign(d) }), resize: () => (it.resize(), it.draw(true)) };
+}
+const sign = (d) => JSON.stringify([d.x.unit, d.curves.map((c) => [c.name, c.unit, c.points[0][0]])]);
+
+export function modes(element) {
+  let playing = false;
+  let frame = 0;
+  let start = 0;
+  const reduced = window.matchMedia("(prefers-reduced-motion: reduce)");
+  const wave = (points, k) => {
+    if (!playing) return points;
+    const time = (performance.now() - start) / 1000;
+    const factor = Math.cos(2 * Math.PI * 0.5 * time * (1 + 0.22 * k));
+    return points.map(([x, y]) => [x, y * factor]);
+  };
+  const lines = (data, t) =>
+    data.curves.map((c, k) => ({
+      id: `mode ${c.number}`,
+      name: `${c.number}`,
+      type: "line",
+      symbol: "none",
+      lineStyle: { width: 1.8, color: seriesColour(t, c.number), type: c.number > 6 ? "dashed" : "solid" },
+      itemStyle: { color: seriesColour(t, c.number) },
+      data: wave(c.points, k),
+    }));
+  const full = (data, t) => ({
+    grid: { left: 42, right: 12, top: 26, bottom: 34 },
+    legend: {
+      top: 0,
+      left: 38,
+      itemWidth: 14,
+      itemHeight: 8,
+      itemGap: 10,
+      textStyle: { color: t.muted, fontSize: 11, fontFamily: FONT },
+      selectedMode: false,
+      formatter: (name) => `${name}: ${data.curves.find((c) => `${c.number}` === name)?.label ?? ""}`,
+    },
+    xAxis: xAxis(t, `x from the ${data.origin} [${data.unit}]`, {
+      min: data.curves[0]?.points[0][0] ?? 0,
+      max: data.curves[0]?.points[data.curves[0].points.length - 1][0] ?? 1,
+    }),
+    yAxis: axis(t, "", { min: -1, max: 1, interval: 0.5 }),
+    tooltip: tooltip(t, (points) =>
+      [`x = ${rounded(points[0].value[0])} ${data.unit}`]
+        .concat(points.map((p) => `${p.marker} mode ${p.seriesName}: <b>${rounded(p.value[1])}</b>`))
+        .join("<br>"),
+    ),
+    series: lines(data, t),
+  });
+  const it = chart(element, full, (data, t) => ({
+    legend: full(data, t).legend,
+    series: lines(data, t).map((s) => ({ id: s.id, data: s.data })),
+  }));
+  const step = () => {
+    if (!playing) return;
+    if (it.data && !document.hidden)
+      it.instance.setOption({ series: it.data.curves.map((c, k) => ({ id: `mode ${c.number}`, data: wave(c.points, k) })) });
+    frame = setTimeout(() => requestAnimationFrame(step), 30);
+  };
+  return {
+    ...it,
+    show(data) {
+      const key = [data.unit, data.component, data.curves.map((c) => c.number)];
+      it.show({ ...data, signature: JSON.stringify(key) });
+    },
+    play(on) {
+      playing = on && !(reduced.matches && on === "auto");
+      start = performance.now();
+      clearTimeout(frame);
+      if (playing) step();
+      else it.draw(true);
+    },
+  };
+}
+
+export function characteristic(element) {
+  const full = (data, t) => ({
+    grid: { left: 26, right: 14, top: 10, bottom: 34 },
+    xAxis: xAxis(t, "frequency [Hz]", { min: 0, max: data.points[data.points.length - 1][0], axisLabel: { ...label(t), formatter: rounded, showMaxLabel: false } }),
+    yAxis: axis(t, "", { min: -1.08, max: 1.08, interval: 1.08, splitLine: { show: false }, axisLabel: { ...label(t), formatter: (v) => (Math.abs(v) < 0.1 ? "0" : "") } }),
+    tooltip: tooltip(t, (points) => `${rounded(points[0].value[0])} Hz`),
+    series: [
+      {
+        id: "function",
+        type: "line",
+        symbol: "none",
+        lineStyle: { color: t.accent, width: 1.6 },
+        data: data.points,
+        markLine: { silent: true, symbol: "none", label: { show: false }, lineStyle: { color: t.muted, type: "solid", width: 1 }, data: [{ yAxis: 0 }] },
+      },
+      {
+        id: "roots",
+        type: "scatter",
+        symbolSize: 8,
+        itemStyle: { color: t.card, borderColor: t.series[1], borderWidth: 2 },
+        tooltip: { trigger: "item", formatter: (p) => `root ${p.dataIndex + 1 + data.divergent}: <b>${p.value[0]}</b> Hz` },
+        data: data.roots.map((f) => [f, 0]),
+      },
+    ],
+  });
+  return chart(element, full);
+}
+
+export function curve(element) {
+  let cursor = null;
+  const lines = (data, t) =>
+    data.lines.map((points, k) => ({
+      id: `mode ${k + 1}`,
+      name: `mode ${k + 1}`,
+      type: "line",
+      symbol: "none",
+      smooth: 0.2,
+      smoothMonotone: "x",
+      lineStyle: { color: seriesColour(t, k + 1), width: 1.8, type: k > 5 ? "dashed" : "solid" },
+      itemStyle: { color: seriesColour(t, k + 1) },
+      data: points,
+    }));
+  const marks = (t) => ({
+    id: "now",
+    type: "scatter",
+    symbolSize: 7,
+    z: 5,
+    itemStyle: { color: t.card, borderColor: t.text, borderWidth: 1.5 },
+    tooltip: { show: false },
+    data: cursor ? cursor.hertz.map((f) => [cursor.value, f]) : [],
+    markLine: {
+      silent: true,
+      symbol: "none",
+      animation: false,
+      label: { show: false },
+      lineStyle: { color: t.text, type: "solid", width: 1, opacity: 0.6 },
+      data: cursor ? [{ xAxis: cursor.value }] : [],
+    },
+  });
+  const full = (data, t) => ({
+    grid: { left: 42, right: 16, top: 12, bottom: 34 },
+    xAxis: xAxis(t, `${data.label}${data.unit ? ` [${data.unit}]` : ""}`, { min: data.low, max: data.high, axisLabel: { ...label(t), formatter: rounded } }),
+    yAxis: axis(t, "", { min: 0, splitNumber: 4 }),
+    tooltip: tooltip(t, (points) =>
+      [`${data.label} = ${rounded(points[0].value[0])} ${data.unit}`]
+        .concat(points.filter((p) => p.seriesId !== "now").map((p) => `${p.marker} ${p.seriesName}: <b>${rounded(p.value[1] ?? NaN)}</b> Hz`))
+        .join("<br>"),
+    ),
+    series: [...lines(data, t), marks(t)],
+  });
+  const it = chart(element, full, (data, t) => ({
+    series: [...lines(data, t).map((s) => ({ id: s.id, data: s.data })), marks(t)],
+  }));
+  return {
+    ...it,
+    show(data) {
+      if (data.cursor) cursor = data.cursor;
+      if (data.curve) it.show({ ...data.curve, signature: JSON.stringify([data.curve.label, data.curve.unit, data.curve.low, data.curve.high, data.curve.lines.length]) });
+      else if (it.data) it.instance.setOption({ series: [marks(theme())] });
+    },
+  };
+}

@@ -1,0 +1,95 @@
+// The table of frequencies: numbers, and bars on one common scale with baseline, band and lines.
+import { html } from "./theme.js";
+
+const HEADS = [
+  ["mode", "Mode"],
+  ["hz", "Hz"],
+  ["error", "±"],
+  ["bar", ""],
+  ["change", "vs pinned"],
+  ["shift", "by N"],
+];
+
+export function frequencies(element) {
+  const table = html("table", "an-table");
+  const caption = html("caption", "an-sr", "Natural frequencies");
+  const head = html("thead");
+  const row = html("tr");
+  for (const [name, text] of HEADS) {
+    const cell = html("th", `an-${name}`, text);
+    cell.scope = "col";
+    row.append(cell);
+  }
+  row.querySelector(".an-shift").title = "change by the axial force";
+  row.querySelector(".an-error").title = "bound on the error [Hz]";
+  head.append(row);
+  const rows = html("tbody");
+  table.append(caption, head, rows);
+  const foot = html("div", "an-foot");
+  element.append(table, foot);
+
+  function bar(data, r) {
+    const box = html("div", "an-barbox");
+    const percent = (f) => `${(100 * f) / data.top}%`;
+    if (data.band) {
+      const band = html("div", "an-band");
+      band.style.left = percent(data.band[0]);
+      band.style.width = percent(data.band[1] - data.band[0]);
+      box.append(band);
+    }
+    for (const f of data.lines) {
+      const line = html("div", "an-line");
+      line.style.left = percent(f);
+      box.append(line);
+    }
+    if (r.hz !== null) {
+      const fill = html("div", r.flag ? "an-fill an-flagged" : "an-fill");
+      fill.style.width = percent(r.hz);
+      box.append(fill);
+    }
+    if (r.baseline) {
+      const tick = html("div", "an-tick");
+      tick.style.left = percent(r.baseline);
+      box.append(tick);
+    }
+    return box;
+  }
+
+  function line(data, r) {
+    const tr = html("tr", r.flag ? "an-flagrow" : "");
+    if (r.flag) tr.title = r.flag;
+    const name = html("th", "an-mode", r.number);
+    name.scope = "row";
+    if (r.flag) {
+      const mark = html("span", "an-mark", "▲");
+      mark.setAttribute("aria-label", r.flag);
+      name.append(mark);
+    }
+    const cells = [html("td", "an-hz", r.text), html("td", "an-error", r.error), html("td", "an-bar")];
+    cells[2].append(bar(data, r));
+    tr.append(name, ...cells, html("td", "an-change", r.change), html("td", "an-shift", r.shift));
+    return tr;
+  }
+
+  let count = 0;
+  const fit = () => {
+    const room = (element.clientHeight - 24 - foot.offsetHeight) / Math.max(count, 1);
+    table.style.setProperty("--an-row", `${Math.max(21, Math.min(38, Math.floor(room)))}px`);
+  };
+
+  return {
+    resize: fit,
+    show(data) {
+      table.classList.toggle("an-pinned", data.pinned);
+      table.classList.toggle("an-quick", data.quick);
+      rows.replaceChildren(...data.rows.map((r) => line(data, r)));
+      count = data.rows.length;
+      const flagged = data.rows.filter((r) => r.flag);
+      const texts = flagged.map((r) => `mode ${r.number} ${r.flag}`);
+      foot.textContent = data.rows.length ? texts.join(" · ") : "computing …";
+      foot.hidden = data.rows.length > 0 && !flagged.length;
+      fit();
+      caption.textContent = `Natural frequencies, ${data.family} modes`;
+    },
+  };
+}
