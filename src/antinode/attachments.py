@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -99,6 +100,28 @@ def name_of(item: Attachment) -> str:
     if isinstance(item, Spring) and math.inf in (item.translational, item.rotational, item.axial):
         return "support"
     return _NAMES[type(item)]
+
+
+_UNITS: dict[type, dict[str, str]] = {
+    PointMass: {"mass": "kg", "rotary_inertia": "kg_m2", "offset": "m"},
+    Spring: {"translational": "N_per_m", "rotational": "N_m_per_rad", "axial": "N_per_m"},
+    Joint: {"rotational": "rad_per_N_m", "axial": "m_per_N"},
+}
+
+
+def attachment_dict(item: Attachment) -> dict[str, Any]:
+    """Return an attachment as plain numbers for JSON, units in the keys.
+
+    An infinite stiffness is null, and named under ``holds``.
+    """
+    values = {name: getattr(item, name) for name in _UNITS[type(item)]}
+    numbers = {
+        f"{name}_{_UNITS[type(item)][name]}": None if value == math.inf else value
+        for name, value in values.items()
+    }
+    held = [name for name, value in values.items() if value == math.inf]
+    more = {"holds": held} if isinstance(item, Spring) else {}
+    return {"kind": name_of(item), "x_m": item.x, **numbers, **more}
 
 
 _SIGNED = ("x", "offset")

@@ -7,8 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .beam_sketch import draw_beam, mark_stations
 from .dataset import check_output
 from .errors import InputError
+from .plot_style import BODY, EDGE, GREY, INK, WATER, WIDTH, styled, zero_line
+from .plot_style import PALETTE as PALETTE
+from .plot_style import STYLE as STYLE
+from .plot_style import pyplot as pyplot
 from .result import ModalResult, Mode
 
 if TYPE_CHECKING:
@@ -16,47 +21,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .case import Case
+    from .riccati.chain import Family
     from .vehicle import FinSet, Vehicle
 
 ENDINGS = (".png", ".svg", ".pdf")
-PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#5A5A5A")
-"""Colours that stay apart for colour-blind eyes (Okabe and Ito)."""
-
-STYLE: Any = {
-    "font.size": 9,
-    "font.family": "DejaVu Sans",
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.titlesize": 10,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "axes.grid": True,
-    "grid.color": "#E3E6EA",
-    "grid.linewidth": 0.6,
-    "axes.axisbelow": True,
-    "axes.edgecolor": "#6B7280",
-    "lines.linewidth": 1.6,
-    "legend.frameon": False,
-    "svg.fonttype": "none",
-    "pdf.fonttype": 42,
-    "figure.dpi": 120,
-    "savefig.dpi": 160,
-}
-"""Settings of matplotlib that all figures share."""
-
-
-def pyplot() -> Any:
-    """Return matplotlib.pyplot, drawing to files; raise InputError if it is not installed."""
-    try:
-        import matplotlib
-    except ImportError as error:
-        raise InputError(
-            "matplotlib is not installed; add it with: pip install 'antinode[plot]'"
-        ) from error
-    matplotlib.use("Agg", force=False)
-    import matplotlib.pyplot as plt
-
-    return plt
 
 
 def check_plot(path: Path) -> None:
@@ -67,84 +35,98 @@ def check_plot(path: Path) -> None:
 
 def save(figure: Figure, path: Path) -> None:
     """Write a figure to .png, .svg or .pdf."""
-    import matplotlib
-    import matplotlib.pyplot as plt
-
     try:
-        with matplotlib.rc_context(STYLE):
+        with styled():
             figure.savefig(path)
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
     finally:
-        plt.close(figure)
+        pyplot().close(figure)
 
 
+@styled()
 def plot_modes(result: ModalResult, most: int = 6) -> Figure:
-    """Draw bending shapes, their moments, longitudinal shapes and the axial force of a beam."""
-    plt = pyplot()
-    with plt.rc_context(STYLE):
-        longitudinal = [m for m in result.family("longitudinal") if m.number]
-        rows = 2 + bool(longitudinal) + (not result.beam.is_unloaded)
-        figure: Figure
-        figure, axes = plt.subplots(
-            rows, 1, figsize=(8.0, 2.1 * rows + 0.6), sharex=True, layout="constrained"
-        )
-        _shape_panels(result, axes, most)
-        if not result.beam.is_unloaded:
-            _axial_force_of_beam(result, axes[-1])
-        axes[-1].set_xlabel("x from the left end [m]")
-        figure.suptitle(f"{result.beam.name}: natural modes", fontweight="bold", x=0.01, ha="left")
-    return figure
+    """Draw a beam with what is attached, its bending shapes, their moments, longitudinal shapes.
+
+    The axial force stands below, where there is one.
+    """
+    beam, longitudinal = result.beam, _numbered(result, "longitudinal", most)
+    rows = 3 + bool(longitudinal) + (not beam.is_unloaded)
+    figure, axes = _stack((0.45, *[1.0] * (rows - 1)))
+    draw_beam(beam, axes[0])
+    _shape_panels(result, axes[1:], most)
+    if not beam.is_unloaded:
+        _axial_force_of_beam(result, axes[-1])
+    for panel in axes[1:]:
+        mark_stations(beam, panel)
+    return _titled(figure, axes, f"{beam.name}: natural modes", "x from the left end [m]")
 
 
+@styled()
 def plot_case(case: Case, result: ModalResult, most: int = 6) -> Figure:
     """Draw the vehicle in its cavity, its axial force and its modes, one above the other."""
-    plt = pyplot()
-    with plt.rc_context(STYLE):
-        figure: Figure
-        figure, axes = plt.subplots(
-            5,
-            1,
-            figsize=(8.4, 10.8),
-            sharex=True,
-            layout="constrained",
-            height_ratios=(0.7, 1, 1, 1, 1),
-        )
-        draw_vehicle(case, axes[0])
-        draw_axial_force(case, axes[1])
-        _shape_panels(result, axes[2:], most)
-        axes[-1].set_xlabel("x from the nose [m]")
-        figure.suptitle(_case_title(case), fontweight="bold", x=0.01, ha="left")
-    return figure
+    longitudinal = _numbered(result, "longitudinal", most)
+    figure, axes = _stack((0.7, *[1.0] * (3 + bool(longitudinal))))
+    draw_vehicle(case, axes[0])
+    draw_axial_force(case, axes[1])
+    _shape_panels(result, axes[2:], most)
+    return _titled(figure, axes, case_title(case), "x from the nose [m]")
 
 
-def plot_loads(case: Case) -> Figure:
+@styled()
+def plot_shapes(result: ModalResult, most: int = 6, origin: str = "the left end") -> Figure:
+    """Draw shapes and moments alone."""
+    longitudinal = _numbered(result, "longitudinal", most)
+    figure, axes = _stack((1.0,) * (2 + bool(longitudinal)))
+    _shape_panels(result, axes, most)
+    for panel in axes:
+        mark_stations(result.beam, panel)
+    return _titled(figure, axes, "", f"x from {origin} [m]")
+
+
+@styled()
+def plot_loads(case: Case, title: bool = True) -> Figure:
     """Draw the vehicle in its cavity and N, Q and M along it."""
-    plt = pyplot()
-    with plt.rc_context(STYLE):
-        figure: Figure
-        figure, axes = plt.subplots(
-            4,
-            1,
-            figsize=(8.4, 8.6),
-            sharex=True,
-            layout="constrained",
-            height_ratios=(0.7, 1, 1, 1),
-        )
-        draw_vehicle(case, axes[0])
-        draw_axial_force(case, axes[1])
-        x = _fine(case)
-        loads = case.loads
-        xx, Q = _both_sides(x, loads.shear_force(x, "left"), loads.shear_force(x, "right"))
-        _filled(axes[2], xx, Q / 1e3, PALETTE[2])
-        axes[2].set(title="Static shear force", ylabel="Q [kN]")
-        _filled(axes[3], x, loads.bending_moment(x) / 1e3, PALETTE[3])
-        axes[3].set(title="Static bending moment", ylabel="M [kN m]", xlabel="x from the nose [m]")
-        figure.suptitle(_case_title(case), fontweight="bold", x=0.01, ha="left")
+    figure, axes = _stack((0.7, 1.0, 1.0, 1.0))
+    draw_vehicle(case, axes[0])
+    draw_axial_force(case, axes[1])
+    x, loads = _fine(case), case.loads
+    xx, Q = _both_sides(x, loads.shear_force(x, "left"), loads.shear_force(x, "right"))
+    _filled(axes[2], xx, Q / 1e3, PALETTE[2])
+    axes[2].set(title="Static shear force", ylabel="Q [kN]")
+    _filled(axes[3], x, loads.bending_moment(x) / 1e3, PALETTE[3])
+    axes[3].set(title="Static bending moment", ylabel="M [kN m]")
+    return _titled(figure, axes, case_title(case) if title else "", "x from the nose [m]")
+
+
+def _stack(heights: tuple[float, ...]) -> tuple[Figure, Any]:
+    """Return a figure of panels one above the other, which share x."""
+    figure: Figure
+    figure, axes = pyplot().subplots(
+        len(heights),
+        1,
+        figsize=(WIDTH, 1.6 * sum(heights) + 0.6),
+        sharex=True,
+        layout="constrained",
+        height_ratios=heights,
+    )
+    return figure, axes
+
+
+def _titled(figure: Figure, axes: Any, title: str, label: str) -> Figure:
+    axes[-1].set_xlabel(label)
+    if title:
+        figure.suptitle(title, x=0.01, ha="left")
     return figure
 
 
-def _case_title(case: Case) -> str:
+def _numbered(result: ModalResult, family: Family, most: int) -> list[Mode]:
+    """Return the modes 1, 2, ... of a family, rigid ones left out."""
+    return [mode for mode in result.family(family) if mode.number][:most]
+
+
+def case_title(case: Case) -> str:
+    """Return the name of the vehicle and its condition in one line."""
     c = case.condition
     return (
         f"{case.vehicle.name}: V = {c.speed:g} m/s, \u03c3 = {case.loads.sigma:.4g}, "
@@ -153,15 +135,15 @@ def _case_title(case: Case) -> str:
 
 
 def _shape_panels(result: ModalResult, axes: Any, most: int) -> None:
-    bending = [m for m in result.family("bending") if m.number][:most]
-    longitudinal = [m for m in result.family("longitudinal") if m.number][:most]
+    bending = _numbered(result, "bending", most)
+    longitudinal = _numbered(result, "longitudinal", most)
     _curves(axes[0], result.x, bending, 0)
-    axes[0].set(title="Bending modes", ylabel="Y (largest 1)")
+    axes[0].set(title="Bending modes", ylabel="Y (largest 1) [-]")
     _curves(axes[1], result.x, bending, 2, scaled=True)
-    axes[1].set(title="Their bending moments", ylabel="M (largest 1)")
+    axes[1].set(title="Their bending moments", ylabel="M (largest 1) [-]")
     if longitudinal and len(axes) > 2:
         _curves(axes[2], result.x, longitudinal, 0)
-        axes[2].set(title="Longitudinal modes", ylabel="X (largest 1)")
+        axes[2].set(title="Longitudinal modes", ylabel="X (largest 1) [-]")
 
 
 def _curves(
@@ -170,15 +152,17 @@ def _curves(
     for mode, colour in zip(modes, PALETTE * 10, strict=False):
         values = mode.states[:, component]
         size = float(np.max(np.abs(values))) if scaled else float(np.max(np.abs(mode.shape)))
-        text = _mode_label(mode)
-        axes.plot(x, values / (size or 1.0), color=colour, label=text)
-    axes.axhline(0, color="#6B7280", linewidth=0.7)
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=8)
+        axes.plot(x, values / (size or 1.0), color=colour, label=mode_label(mode))
+    zero_line(axes)
+    if not scaled:
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
-def _mode_label(mode: Mode) -> str:
-    value = f"{mode.frequency_hz:.4g} Hz" if mode.omega2 >= 0 else "divergent"
-    return f"{mode.number}: {value}"
+def mode_label(mode: Mode) -> str:
+    """Return the name of a mode and its frequency, or that it diverges, as in all figures."""
+    if mode.omega2 < 0:
+        return f"{mode.name}: divergent"
+    return f"{mode.name}: {f'{mode.frequency_hz:#.4g}'.rstrip('.')} Hz"
 
 
 def _axial_force_of_beam(result: ModalResult, axes: Axes) -> None:
@@ -214,7 +198,7 @@ def _both_sides(
 def _filled(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
     axes.plot(x, y, color=colour)
     axes.fill_between(x, y, color=colour, alpha=0.12, linewidth=0)
-    axes.axhline(0, color="#6B7280", linewidth=0.7)
+    zero_line(axes)
 
 
 def draw_vehicle(case: Case, axes: Axes) -> None:
@@ -224,9 +208,7 @@ def draw_vehicle(case: Case, axes: Axes) -> None:
     cavity = loads.cavity
     x = np.linspace(0, min(cavity.L_c, 1.06 * L), 600)
     middle, radius = cavity.axis_offset(x), cavity.radius(x)
-    axes.fill_between(
-        x, middle - radius, middle + radius, color="#DCEBF7", linewidth=0, label="cavity"
-    )
+    axes.fill_between(x, middle - radius, middle + radius, color=WATER, linewidth=0, label="cavity")
     axes.plot(x, middle + radius, color=PALETTE[5], linewidth=1.0)
     axes.plot(x, middle - radius, color=PALETTE[5], linewidth=1.0)
     xb = np.repeat(np.unique(np.concatenate([vehicle.stations.x, np.linspace(0, L, 200)])), 2)[1:-1]
@@ -234,9 +216,9 @@ def draw_vehicle(case: Case, axes: Axes) -> None:
     body = np.repeat(vehicle.radius_at(inner), 2)
     if vehicle.interpolation != "step":
         body = vehicle.radius_at(xb)
-    axes.fill_between(xb, -body, body, color="#B8BEC7", edgecolor="#4B5563", linewidth=0.8)
+    axes.fill_between(xb, -body, body, color=BODY, edgecolor=EDGE, linewidth=0.8)
     D_n = vehicle.cavitator.diameter
-    axes.plot([0, 0], [-D_n / 2, D_n / 2], color="#111827", linewidth=2.5, solid_capstyle="butt")
+    axes.plot([0, 0], [-D_n / 2, D_n / 2], color=INK, linewidth=2.5, solid_capstyle="butt")
     for fins, load in zip(vehicle.fins, loads.fins, strict=True):
         _draw_fins(axes, vehicle, fins, load.position)
     axes.set_aspect("equal", adjustable="datalim")
@@ -253,7 +235,7 @@ def _draw_fins(axes: Axes, vehicle: Vehicle, fins: FinSet, x: float) -> None:
         axes.fill(
             [x - half, x + half, x + half, x - half],
             [low, low, high, high],
-            color="#7C8592",
-            edgecolor="#4B5563",
+            color=GREY,
+            edgecolor=EDGE,
             linewidth=0.6,
         )

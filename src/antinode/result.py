@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from .attachments import attachment_dict
 from .beam import Beam
 from .errors import InputError
 from .riccati.chain import Chain, Family
@@ -256,6 +257,7 @@ class ModalResult:
         return {
             "schema_version": 1,
             "name": self.beam.name,
+            "attachments": [attachment_dict(item) for item in self.beam.attachments],
             "modes": [_mode_dict(mode) for mode in self.modes],
             "method": self.method,
             "tolerance": self.tolerance,

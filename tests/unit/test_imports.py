@@ -44,7 +44,17 @@ BEAM = ("attachments", "beam", "limits", "axial")
 MODES = ("result", "modes", "batch", "buckling")
 READING = ("explain", "override", "files")
 INPUTS = ("attachment_tables", "beam_file", "case", "statics")
-OUTPUTS = ("dataset", "loads_table", "figures", "verify", "printing", "schema")
+OUTPUTS = (
+    "dataset",
+    "loads_table",
+    "plot_style",
+    "svg",
+    "beam_sketch",
+    "figures",
+    "verify",
+    "printing",
+    "schema",
+)
 PAPER = (
     "paper",
     "paper.tables",

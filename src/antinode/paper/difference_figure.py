@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from antinode.plot_style import GREY, zero_line
+
 from .comparison import Comparison
-from .plates import BENDING, GREY, letter, sheet, zero_line
+from .plates import BENDING, letter, sheet
 from .scene import Scene
 from .tables import MODES, TABLES, Table
 

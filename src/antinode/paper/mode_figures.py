@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from antinode.plot_style import GREY, INK, zero_line
 from antinode.riccati.literal import riccati_characteristic, tmm_characteristic
 
-from .plates import BENDING, GREY, INK, letter, sheet, zero_line
+from .plates import BENDING, letter, sheet
 from .scene import Array, Scene
 
 if TYPE_CHECKING:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import io
 import re
 import textwrap
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from antinode.figures import PALETTE, STYLE, pyplot
+from antinode.plot_style import PALETTE, WIDTH, pyplot, styled
+from antinode.svg import for_page
 
 from .scene import Scene
 
@@ -19,34 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-INK, GREY, LIGHT = "#1F2937", "#6B7280", "#E3E6EA"
-WIDTH = 7.1  # inches, two columns of a journal
-_JOURNAL: Any = {
-    **STYLE,
-    "font.family": "sans-serif",
-    "font.size": 8,
-    "axes.labelsize": 8,
-    "axes.titlesize": 8.5,
-    "axes.titleweight": "normal",
-    "axes.labelcolor": INK,
-    "axes.linewidth": 0.7,
-    "xtick.labelsize": 7.5,
-    "ytick.labelsize": 7.5,
-    "xtick.color": GREY,
-    "ytick.color": GREY,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "xtick.major.width": 0.7,
-    "ytick.major.width": 0.7,
-    "legend.fontsize": 7.5,
-    "legend.handlelength": 1.6,
-    "grid.color": LIGHT,
-    "lines.linewidth": 1.4,
-    "mathtext.fontset": "dejavusans",
-    "figure.dpi": 100,
-    "savefig.dpi": 250,
-    "text.color": INK,
-}
 _CAPTION_SIZE, _CAPTION_COLUMNS = 7.5, 128
 _LINE = _CAPTION_SIZE * 1.4 / 72  # inches
 _SYMBOL = re.compile(r"\b([^\W\d_])_(\w+)\b")
@@ -72,14 +44,6 @@ class Plate:
     draw: Callable[[Scene], tuple[Figure, str]]
 
 
-@contextmanager
-def journal_style() -> Iterator[Any]:
-    """Give matplotlib.pyplot with the style of all plates."""
-    plt = pyplot()
-    with plt.rc_context(_JOURNAL):
-        yield plt
-
-
 def sheet(height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Any, Any]:
     """Return a figure of the full width and so many inches of height, and its axes."""
     figure, axes = pyplot().subplots(
@@ -101,11 +65,6 @@ def shades(number: int) -> list[Any]:
     return [ramp(0.88 * k / max(number - 1, 1)) for k in range(number)]
 
 
-def zero_line(axes: Axes) -> None:
-    """Draw the line of zero, under the curves."""
-    axes.axhline(0, color=GREY, linewidth=0.6, zorder=1)
-
-
 def publish(plate: Plate, scene: Scene, folder: Path) -> tuple[str, str]:
     """Write a plate as SVG, PDF and PNG, its caption below it.
 
@@ -116,7 +75,7 @@ def publish(plate: Plate, scene: Scene, folder: Path) -> tuple[str, str]:
     str
         The caption.
     """
-    with journal_style() as plt:
+    with styled() as plt:
         plt.rcParams["svg.hashsalt"] = plate.name
         figure, caption = plate.draw(scene)
         text = f"{plate.heading} (reconstruction). {caption}"
@@ -156,17 +115,7 @@ def _add_caption(figure: Figure, text: str) -> float:
     return strip
 
 
-_SIZE = re.compile(r'width="[\d.]+pt" height="([\d.]+)pt" viewBox="0 0 ([\d.]+) [\d.]+"')
-
-
 def _without_caption(svg: str, strip: float, name: str) -> str:
-    """Return a drawing for a page: its strip cut off, no header, ids of its own, no namespaces."""
+    """Return a drawing for a page, its strip cut off."""
     svg = re.sub(r'<g id="caption">.*?</g>\s*(?=</g>\s*<defs>|</g>\s*</svg>)', "", svg, flags=re.S)
-    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
-    svg = re.sub(r' xmlns(:\w+)?="[^"]*"', "", svg[svg.index("<svg") :])
-    size = _SIZE.search(svg)
-    assert size is not None
-    height = float(size[1]) - 72 * strip
-    svg = _SIZE.sub(f'viewBox="0 0 {size[2]} {height:.2f}" role="img"', svg, count=1)
-    svg = re.sub(r'\bid="', f'id="{name}-', svg)
-    return re.sub(r'(url\(#|href="#)', rf"\g<1>{name}-", svg)
+    return for_page(svg, name, cut=72 * strip)

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from antinode.case import Case
-from antinode.figures import PALETTE, draw_vehicle
+from antinode.figures import draw_vehicle
+from antinode.plot_style import GREY, INK, PALETTE, WIDTH, zero_line
 
-from .plates import GREY, INK, WIDTH, letter, shades, sheet, zero_line
+from .plates import letter, shades, sheet
 from .scene import Array, Scene, axial_force_curve
 from .tables import TABLES
 
