@@ -24,7 +24,8 @@ import numpy.typing as npt
 from .beam import Ends
 from .errors import InputError
 from .riccati.chain import Chain
-from .riccati.roots import CountingError, check_certificate, find_eigenvalues
+from .riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
+from .riccati.shapes import mode_energies, mode_states
 
 Array = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
@@ -40,7 +41,7 @@ REASONS = (
 )
 """What the codes in `BatchResult.reason` mean; 0 is success."""
 
-_WIDTH = 1e-10  # of a bracket, relative in omega^2
+_WIDTH = 0.98e-10  # of a bracket before its rounding, relative in omega^2
 _ROUNDING = 64 * np.finfo(float).eps
 _CLUSTERED, _PAST_BUCKLING = 5, 6
 _FREE = Ends()
@@ -111,11 +112,11 @@ class BatchResult:
     omega2 : array, shape (beams, modes)
         [rad^2/s^2]; NaN where a beam could not be solved.
     bracket_omega2 : array, shape (beams, modes, 2)
-        Encloses the eigenvalue [rad^2/s^2].
+        Encloses the eigenvalue, rounding included [rad^2/s^2].
     counts : array of int, shape (beams, modes, 2)
         Number of eigenvalues, rigid ones included, below either end of the bracket.
     error_omega2 : array, shape (beams, modes)
-        Half the bracket, and rounding [rad^2/s^2].
+        Distance to the farther end of the bracket [rad^2/s^2].
     reason : array of int, shape (beams,)
         0, or why a beam has NaN among its frequencies: an index of `REASONS`.
     evaluations : array of int, shape (beams,)
@@ -174,18 +175,19 @@ def solve_many(batch: BeamBatch) -> BatchResult:
         *(batch.length, batch.mass_per_length, batch.bending_stiffness, batch.axial_force),
         *(ends, _rigid_modes(batch.ends), _WIDTH, (omega2, low, high, counts, rounding)),
     )
+    rounding = np.fmax(rounding, _rounding(batch, omega2))
     for row in np.flatnonzero(reason == _CLUSTERED):
-        reason[row] = _part(batch, int(row), omega2, low, high, counts)
+        reason[row] = _part(batch, int(row), (omega2, low, high, rounding), counts)
+    low, high = low - rounding, high + rounding
     failed = reason != 0
     omega2[failed], low[failed], high[failed], counts[failed] = np.nan, np.nan, np.nan, -1
+    _share(low, high, counts)
     reason[~failed & (omega2[:, 0] < 0)] = _PAST_BUCKLING
-    error = np.maximum(high - omega2, omega2 - low) + np.fmax(rounding, _rounding(batch, omega2))
+    error = np.maximum(high - omega2, omega2 - low)
     return BatchResult(omega2, np.stack([low, high], axis=-1), counts, error, reason, evaluations)
 
 
-def _part(
-    batch: BeamBatch, row: int, omega2: Array, low: Array, high: Array, counts: Integers
-) -> int:
+def _part(batch: BeamBatch, row: int, results: tuple[Array, ...], counts: Integers) -> int:
     """Solve a beam whose modes nearly coincide by frames, which part them; return the reason."""
     below = _rigid_modes(batch.ends)
     h = batch.length[row if len(batch.length) > 1 else 0]
@@ -195,14 +197,34 @@ def _part(
     zeros = below if not np.any(N) else int(translates)
     try:
         found = find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
-    except (CountingError, FloatingPointError):
+        if not check_certificate(found):
+            return _CLUSTERED
+        wanted = found[below : below + batch.modes]
+        rounding = _rounding_by_shapes(chain, wanted)
+    except (CountingError, ArithmeticError):
         return _CLUSTERED
-    if not check_certificate(found):
-        return _CLUSTERED
-    for k, value in enumerate(found[below : below + batch.modes]):
-        omega2[row, k], counts[row, k] = value.omega2, value.counts
-        low[row, k], high[row, k] = value.bracket
+    columns = [v.omega2 for v in wanted], *zip(*(v.bracket for v in wanted), strict=True), rounding
+    for values, column in zip(results, columns, strict=True):
+        values[row] = column
+    counts[row] = [v.counts for v in wanted]
     return 0
+
+
+def _rounding_by_shapes(chain: Chain, found: list[Eigenvalue]) -> Array:
+    """Return the rounding of omega^2 [rad^2/s^2]: small against the energies that make it."""
+    omega2 = np.array([value.omega2 for value in found])
+    together = np.array([sum(other.bracket == v.bracket for other in found) for v in found])
+    energies = mode_energies(chain, mode_states(chain, omega2, together), omega2)
+    return np.asarray(_ROUNDING * energies.size / energies.mass)
+
+
+def _share(low: Array, high: Array, counts: Integers) -> None:
+    """Let neighbouring modes share a bracket where rounding makes theirs overlap."""
+    for row in np.flatnonzero(np.any(low[:, 1:] <= high[:, :-1], axis=1)):
+        edges = np.flatnonzero(low[row, 1:] > np.maximum.accumulate(high[row])[:-1]) + 1
+        for group in np.split(np.arange(low.shape[1]), edges):
+            low[row, group], high[row, group] = low[row, group].min(), high[row, group].max()
+            counts[row, group] = counts[row, group, 0].min(), counts[row, group, 1].max()
 
 
 def _rigid_modes(ends: Ends) -> int:

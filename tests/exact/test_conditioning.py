@@ -44,6 +44,17 @@ def _check(result, chain):
     return worst
 
 
+def _check_batch(x, m, EI, N, ends, chain):
+    """The same of `solve_many`, for a batch of one."""
+    h, m, EI, N = (np.asarray(values, float) for values in (np.diff(x), m, EI, N))
+    result = an.solve_many(an.BeamBatch(h, m, EI, N, Ends(*ends), MODES - 1))
+    for k, index in enumerate(result.counts[0, :, 1]):
+        root = reference.eigenvalue(chain, int(index))
+        low, high = result.bracket_omega2[0, k]
+        assert low <= root <= high
+        assert abs(result.omega2[0, k] - root) <= result.error_omega2[0, k] <= 1e-8 * abs(root)
+
+
 def _at_buckling(x, m, EI, pattern, ends):
     """The load factor at which the lowest eigenvalue vanishes, by bisecting proven counts."""
     chain = _exact_chain(x, m, EI, pattern, ends)
@@ -78,6 +89,7 @@ def test_near_buckling(name, share):
     chain = _exact_chain(x, m, EI, N, ends)
     assert (result.modes[0].omega2 > 0) == (share < 1)
     assert _check(result, chain) < 1e-9
+    _check_batch(x, m, EI, N, ends, chain)
 
 
 @pytest.mark.parametrize("ends", [("free", "free"), ("clamped", "free"), ("pinned", "sliding")])
@@ -89,7 +101,9 @@ def test_jumps_of_1e6_in_stiffness(seed, ends):
     m = rng.uniform(1, 10, 12)
     N = rng.uniform(-1, 0.2, 12) / x[-1] ** 2
     result = an.solve_modes(_beam(x, m, EI, N, ends), MODES)
-    assert _check(result, _exact_chain(x, m, EI, N, ends)) < 1e-9
+    chain = _exact_chain(x, m, EI, N, ends)
+    assert _check(result, chain) < 1e-9
+    _check_batch(x, m, EI, N, ends, chain)
 
 
 @pytest.mark.parametrize("ends", [("free", "free"), ("clamped", "free")])
@@ -101,7 +115,9 @@ def test_ten_thousand_segments(decades, ends):
     N = rng.uniform(-0.5, 0.5, 20) * EI.min() / coarse[-1] ** 2
     pieces = [np.linspace(a, b, 500, endpoint=False) for a, b in pairwise(coarse)]
     x = np.concatenate([*pieces, coarse[-1:]])
-    fine = (np.repeat(values, 500) for values in (m, EI, N))
+    fine = [np.repeat(values, 500) for values in (m, EI, N)]
     result = an.solve_modes(_beam(x, *fine, ends), MODES)
     assert result.segments["bending"] == 10_000
-    assert _check(result, _exact_chain(coarse, m, EI, N, ends)) < 1e-9
+    chain = _exact_chain(coarse, m, EI, N, ends)
+    assert _check(result, chain) < 1e-9
+    _check_batch(x, *fine, ends, chain)
