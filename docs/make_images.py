@@ -11,8 +11,9 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from antinode import Beam, Ends, load_beam, load_case, solve_modes
+from antinode import Beam, Ends, load_beam, load_case, load_study, solve_modes, sweep
 from antinode.figures import PALETTE, plot_case, plot_modes, save
+from antinode.study.sweep_figures import plot_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 IMAGES = ROOT / "docs" / "images"
@@ -41,6 +42,13 @@ def howto() -> None:
         file = load_beam(EXAMPLES / name / "beam.toml")
         result = solve_modes(file, file.solve.modes, tolerance=file.solve.tolerance)
         save(plot_modes(result), IMAGES / f"howto_{name}.png")
+
+
+def sweeps() -> None:
+    """Draw the sweep over speed and the flight of the how-to page."""
+    for name, image in (("study", "sweep_speed"), ("history", "sweep_history")):
+        study = load_study(EXAMPLES / "sweep" / f"{name}.toml")
+        save(plot_sweep(study, sweep(study)), IMAGES / f"{image}.png")
 
 
 def speed_sweep() -> None:
@@ -179,7 +187,7 @@ def _draw_slice(axes: Axes) -> None:
     axes.set(xlim=(-1.4, 11.6), ylim=(-1.1, 1.0))
 
 
-MAKERS = (starter_modes, ruler_modes, howto, speed_sweep, literal_methods, conventions)
+MAKERS = (starter_modes, ruler_modes, howto, sweeps, speed_sweep, literal_methods, conventions)
 
 
 def main() -> None:

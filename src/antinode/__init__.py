@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from .result import ModalResult, Mode
     from .study.identification import Identification, identify
     from .study.identification_file import IdentificationProblem, load_identification
+    from .study.store import open_store
+    from .study.study_file import Study, load_study
+    from .study.sweep import sweep
     from .vehicle import Cavitator, FinSet, Stations, Vehicle
 
 _HOME = {
@@ -53,6 +56,10 @@ _HOME = {
     "identify": "study.identification",
     "IdentificationProblem": "study.identification_file",
     "load_identification": "study.identification_file",
+    "Study": "study.study_file",
+    "load_study": "study.study_file",
+    "sweep": "study.sweep",
+    "open_store": "study.store",
     "Cavitator": "vehicle",
     "FinSet": "vehicle",
     "Stations": "vehicle",
@@ -79,6 +86,7 @@ __all__ = [
     "Model",
     "OperatingCondition",
     "Stations",
+    "Study",
     "Vehicle",
     "Water",
     "__version__",
@@ -87,8 +95,11 @@ __all__ = [
     "load_beam",
     "load_case",
     "load_identification",
+    "load_study",
+    "open_store",
     "solve_many",
     "solve_modes",
+    "sweep",
 ]
 
 

@@ -26,6 +26,7 @@ from .options import (
     Solver,
     ToFormat,
 )
+from .study_options import StudySet, Sweep
 from .text import one_line, short
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ Input files are TOML. Numbers are SI, angles in radians; a text carries its own 
 """,
 )
 _SOLVER, _OUTPUT, _EXCHANGE = Solver(), Output(), Exchange()
+_SWEEP = Sweep()
 
 
 @app.command(sort_key=2)
@@ -210,6 +212,43 @@ def init(
 
 
 @app.command(sort_key=8)
+def sweep(
+    study: Path,
+    /,
+    *,
+    set_: StudySet = (),
+    options: Sweep = _SWEEP,
+) -> None:
+    """Compute the frequencies of many cases: grids, tables, time histories, samples.
+
+    The study file names a case, the inputs of it that vary, and how. With a store, **-o
+    sweep.zarr**, an interrupted sweep goes on where it was, whatever ended it: run the same command
+    again. Cases that fail are NaN with a reason. Exit code 1 if all cases fail.
+
+    - Example: **antinode sweep study.toml --plot sweep.png**
+    - Example: **antinode sweep study.toml -o sweep.zarr --workers 2**
+    - Example: **antinode sweep study.toml -o sweep.zarr --scheduler tcp://cluster:8786**
+
+    Parameters
+    ----------
+    study
+        A study file in TOML. 'antinode init --example sweep' writes one with its case.
+    """
+    from .study.sweep_command import run_sweep
+
+    run_sweep(
+        study,
+        set_,
+        options.output,
+        workers=options.workers,
+        scheduler=options.scheduler,
+        plot=options.plot,
+        overwrite=options.overwrite,
+        json=options.json,
+    )
+
+
+@app.command(sort_key=8)
 def identify(
     file: Path,
     /,
@@ -317,11 +356,15 @@ def schema(of: str = "case", /) -> None:
     Parameters
     ----------
     of
-        case, beam or identify.
+        case, beam, study or identify.
     """
     from .schema import input_schema
 
-    if of == "identify":
+    if of == "study":
+        from .study.sweep_schema import study_schema
+
+        _print_json(study_schema())
+    elif of == "identify":
         from .study.identification_schema import identification_schema
 
         _print_json(identification_schema())

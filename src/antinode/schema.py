@@ -31,7 +31,7 @@ def input_schema(name: str) -> dict[str, Any]:
         If there is no such input file.
     """
     if name not in MODELS:
-        names = ", ".join([*MODELS, "identify"])
+        names = ", ".join([*MODELS, "study", "identify"])
         raise InputError(f"there is no schema {short(name)}; allowed are {names}")
     model, stations = MODELS[name]
     schema = model.model_json_schema()

@@ -89,6 +89,20 @@ STUDY = (
     "study.identification_schema",
     "study.identification_report",
     "study.identification_command",
+    "study.study_file",
+    "study.design",
+    "study.many_loads",
+    "study.many_beams",
+    "study.chunks",
+    "study.executors",
+    "study.store",
+    "study.tracking",
+    "study.sweep",
+    "study.sweep_tables",
+    "study.sweep_schema",
+    "study.sweep_figures",
+    "study.sweep_report",
+    "study.sweep_command",
 )
 EXAMPLES = ("examples",)
 APP = (
@@ -119,7 +133,7 @@ APP = (
     "app.guard",
     "app.server",
 )
-COMMANDS = ("options", "commands", "cli")
+COMMANDS = ("options", "study_options", "commands", "cli")
 
 MAY_IMPORT = {
     WORDS: (),

@@ -11,6 +11,7 @@ from antinode.errors import InputError
 EXAMPLES = {
     "starter": "antinode modes {folder}case.toml",
     "paper": "antinode modes {folder}case.toml",
+    "sweep": "antinode sweep {folder}study.toml --plot {folder}sweep.png",
     "beam": "antinode beam {folder}beam.toml",
     "tower": "antinode beam {folder}beam.toml",
     "rocket": "antinode beam {folder}beam.toml",

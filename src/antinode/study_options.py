@@ -1,0 +1,69 @@
+"""The options of the commands that run studies, with their help."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Group, Parameter
+
+from .options import Json, _whole
+
+_input = Group("Input", sort_key=1)
+_work = Group("Work", sort_key=2)
+_output = Group("Output", sort_key=3)
+
+StudySet = Annotated[
+    tuple[str, ...],
+    Parameter(
+        name="--set",
+        help="Override a key of the study file: --set design.number=4096 (repeatable).",
+        negative="",
+        show_default=False,
+        group=_input,
+    ),
+]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Sweep:
+    """Where a sweep is computed, and where it goes."""
+
+    output: Annotated[
+        Path | None,
+        Parameter(
+            name=["-o", "--output"],
+            help="Folder of a store, such as sweep.zarr, with which a later run goes on; or a file "
+            "(.nc, .csv) that is written at the end.",
+            group=_output,
+        ),
+    ] = None
+    workers: Annotated[
+        int | None,
+        Parameter(
+            converter=_whole,
+            help="Processes; default: one for each processor, or this one alone for a small study.",
+            group=_work,
+        ),
+    ] = None
+    scheduler: Annotated[
+        str | None,
+        Parameter(
+            help="Address of a Dask scheduler, tcp://host:8786, whose workers compute.", group=_work
+        ),
+    ] = None
+    plot: Annotated[
+        Path | None,
+        Parameter(
+            help="Draw frequencies against the first input: .png, .svg or .pdf.", group=_output
+        ),
+    ] = None
+    overwrite: Annotated[
+        bool,
+        Parameter(
+            help="Replace a store of another study.", negative="", show_default=False, group=_output
+        ),
+    ] = False
+    json: Json = False
