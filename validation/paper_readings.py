@@ -1,7 +1,7 @@
 """Readings of the paper that were tried: python -m validation.paper_readings
 
 The same identification as validation/paper_vehicle.py, with one reading changed at a time, from the
-vehicle that was shipped and from the smooth start; the better of the two counts. Rows that are held
+vehicle that was shipped and from the smooth start; the better fit counts. Rows that are held
 out are not fitted. Prints a table for docs/paper.md.
 """
 
@@ -88,9 +88,9 @@ def judge(reading):
     best = None
     for case in starts(reading):
         result = an.identify(problem(case, reading.thrust, reading.parameters, FIT))
-        if best is None or result.cost < best.cost:
+        if best is None or result.rms_relative < best.rms_relative:
             best = result
-        print(f"  {reading.name}: cost {result.cost:.0f}", file=sys.stderr, flush=True)
+        print(f"  {reading.name}: rms {result.rms_relative:.2e}", file=sys.stderr, flush=True)
     found = list(lines(best.case, reading.thrust))
     return best, size_of(found), size_of([line for line in found if line.row.held_out])
 
