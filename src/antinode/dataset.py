@@ -155,8 +155,8 @@ def write_result(
         If the ending is another, the file cannot be written, or a library for it is not installed.
     """
     writers: dict[str, Callable[[Path], None]] = {
-        ".json": lambda p: _write_text(p, to_json(data) + "\n"),
-        ".csv": lambda p: _write_text(p, table()),
+        ".json": lambda p: write_text(p, to_json(data) + "\n"),
+        ".csv": lambda p: write_text(p, table()),
         ".nc": lambda p: _write_netcdf(p, dataset()),
     }
     if not kind:
@@ -221,7 +221,8 @@ def _is_station_table(path: Path) -> bool:
         return "mass_per_length" in file.read(10_000)
 
 
-def _write_text(path: Path, text: str) -> None:
+def write_text(path: Path, text: str) -> None:
+    """Write a text in UTF-8."""
     path.write_text(text, encoding="utf-8")
 
 

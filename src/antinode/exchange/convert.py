@@ -56,6 +56,8 @@ def convert(request: Request) -> tuple[str, ...]:
     how_in = _named(request.from_format, "--from") or _sniffed(request.source)
     how_out = _named(request.to_format, "--to") or format_of(request.target, OUTPUTS)
     _check(request, how_in, how_out)
+    if how_in == "uff":
+        return _convert_measurements(request, how_out)
     found = read_beam(request.source, how_in, request.choices)
     if how_out in _BEAMS:
         return (*found.notes, *write_beam(request.target, found.beam, how_out))
@@ -112,3 +114,12 @@ def _solved(found: Found, number: int | None) -> Modes:
     solve = validate(Solve, found.solve.model_dump() | given, "command line")
     result = solve_modes(found.beam, solve.modes, tolerance=solve.tolerance, unloaded=True)
     return Modes(result, result.to_dict())
+
+
+def _convert_measurements(request: Request, how_out: Format) -> tuple[str, ...]:
+    from .observation_rows import write_observations
+    from .uff_reader import read_measurements
+
+    choices = request.choices
+    rows, notes = read_measurements(request.source, choices.system, choices.plane)
+    return (*notes, *write_observations(request.target, rows, how_out))

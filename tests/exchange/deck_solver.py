@@ -1,0 +1,136 @@
+"""A NASTRAN deck as pyNastran reads it, solved by plane beam elements: statics, then modes.
+
+Three freedoms a grid: along x, along y, about z. Consistent masses; the axial force that stiffens
+the elements comes from the displacements of the static subcase alone. Nothing of antinode is used.
+"""
+
+import numpy as np
+from pyNastran.bdf.bdf import read_bdf
+from scipy.linalg import solve
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import eigsh
+
+DOF = {"1": 0, "2": 1, "6": 2}
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(6)
+
+
+class Deck:
+    """The matrices of a deck, and its subcases."""
+
+    def __init__(self, path):
+        self.model = model = read_bdf(str(path), debug=None, xref=False)
+        self.index = {g: 3 * k for k, g in enumerate(sorted(model.nodes))}
+        size = 3 * len(self.index)
+        self.K, self.M = np.zeros((size, size)), np.zeros((size, size))
+        self.links = {}
+        for element in model.elements.values():
+            if element.type == "CBAR":
+                self._bar(element)
+            elif element.type == "CELAS2":
+                self._spring(element)
+        for mass in model.masses.values():
+            self._mass(mass)
+        for rigid in model.rigid_elements.values():
+            for c in rigid.cm:
+                for g in rigid.Gmi:
+                    self.links[self.index[g] + DOF[c]] = self.index[rigid.gn] + DOF[c]
+
+    def modes(self, number):
+        """omega^2 of bending and of longitudinal modes under the preload of a subcase [1/s^2]."""
+        settings = self.settings(number)
+        K = self.K.copy()
+        if "STATSUB" in settings:
+            static = self.settings(settings["STATSUB"])
+            u = self._solve_static(static)
+            for element in self.model.elements.values():
+                if element.type == "CBAR":
+                    self._stiffen(K, element, u)
+        T = self._free(settings.get("SPC"))
+        family = np.argmax(T, axis=0) % 3 == 0
+        return [_lowest(T[:, own], K, self.M) for own in (~family, family)]
+
+    def settings(self, number):
+        case = self.model.subcases[number]
+        return {k: case.get_parameter(k)[0] for k in ("SPC", "LOAD", "STATSUB") if k in case}
+
+    def _solve_static(self, settings):
+        force = np.zeros(len(self.K))
+        for load in self.model.loads[settings["LOAD"]]:
+            force[self.index[load.node] : self.index[load.node] + 2] += load.mag * load.xyz[:2]
+        T = self._free(settings["SPC"])
+        return T @ solve(T.T @ self.K @ T, T.T @ force)
+
+    def _free(self, spc):
+        """The map from free freedoms to all of them: supports out, links followed."""
+        size = len(self.K)
+        held = set()
+        for card in self.model.spcs.get(spc, []):
+            for node in card.nodes:
+                held |= {self.index[node] + DOF[c] for c in card.components}
+        free = [i for i in range(size) if i not in held and i not in self.links]
+        T = np.zeros((size, len(free)))
+        for column, i in enumerate(free):
+            T[i, column] = 1.0
+        for slave, master in self.links.items():
+            T[slave] = T[master]
+        return T
+
+    def _geometry(self, element):
+        a, b = (self.model.nodes[g].xyz for g in (element.ga, element.gb))
+        assert np.allclose((b - a)[1:], 0)
+        assert np.allclose(element.x, [0, 1, 0])
+        ia, ib = self.index[element.ga], self.index[element.gb]
+        return (b - a)[0], [ia, ib], [ia + 1, ia + 2, ib + 1, ib + 2]
+
+    def _bar(self, element):
+        h, axial, bending = self._geometry(element)
+        prop = self.model.properties[element.pid]
+        E = self.model.materials[prop.mid].e
+        k = E * prop.A / h
+        self.K[np.ix_(axial, axial)] += k * np.array([[1, -1], [-1, 1]])
+        self.M[np.ix_(axial, axial)] += prop.nsm * h / 6 * np.array([[2, 1], [1, 2]])
+        K, M, _ = hermite(h)
+        self.K[np.ix_(bending, bending)] += E * prop.i1 * K
+        self.M[np.ix_(bending, bending)] += prop.nsm * M
+
+    def _stiffen(self, K, element, u):
+        h, axial, bending = self._geometry(element)
+        prop = self.model.properties[element.pid]
+        tension = self.model.materials[prop.mid].e * prop.A / h * (u[axial[1]] - u[axial[0]])
+        K[np.ix_(bending, bending)] += tension * hermite(h)[2]
+
+    def _spring(self, element):
+        ends = [(g, c) for g, c in zip(element.nodes, (element.c1, element.c2), strict=True) if g]
+        at = [self.index[g] + DOF[str(c)] for g, c in ends]
+        for i in at:
+            for j in at:
+                self.K[i, j] += element.k if i == j else -element.k
+
+    def _mass(self, mass):
+        i, d, m = self.index[mass.nid], mass.X[0], mass.mass
+        self.M[i, i] += m
+        block = np.array([[m, m * d], [m * d, m * d * d + mass.I[5]]])
+        self.M[i + 1 : i + 3, i + 1 : i + 3] += block
+
+
+def _lowest(T, K, M):
+    """The eigenvalues nearest to zero, by shift and invert."""
+    T = csc_matrix(T)
+    K, M = (csc_matrix(T.T @ csc_matrix(A) @ T) for A in (K, M))
+    return eigsh(K, k=8, M=M, sigma=-1.0, return_eigenvectors=False)
+
+
+def hermite(h):
+    """Stiffness, mass and geometric stiffness for EI = m = tension = 1."""
+    K, M, G = np.zeros((4, 4)), np.zeros((4, 4)), np.zeros((4, 4))
+    for p, w in zip(_POINTS, _WEIGHTS, strict=True):
+        s = (p + 1) / 2
+        f = np.array([1 - 3 * s**2 + 2 * s**3, h * (s - 2 * s**2 + s**3),
+                      3 * s**2 - 2 * s**3, h * (s**3 - s**2)])  # fmt: skip
+        g = np.array([-6 * s + 6 * s**2, h * (1 - 4 * s + 3 * s**2),
+                      6 * s - 6 * s**2, h * (3 * s**2 - 2 * s)]) / h  # fmt: skip
+        c = np.array([-6 + 12 * s, h * (-4 + 6 * s), 6 - 12 * s, h * (6 * s - 2)]) / h**2
+        K += w * h / 2 * np.outer(c, c)
+        M += w * h / 2 * np.outer(f, f)
+        G += w * h / 2 * np.outer(g, g)
+    return K, M, G

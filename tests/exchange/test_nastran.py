@@ -1,0 +1,246 @@
+"""Decks there and back; pyNastran reads them, and plane beam elements find what they announce."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from antinode import InputError, solve_modes
+from antinode.attachments import Joint, PointMass, Spring
+from antinode.beam import Ends
+from antinode.exchange.nastran_cards import card_text, read_deck, real_text
+from antinode.exchange.nastran_reader import read_nastran
+from antinode.exchange.nastran_writer import nastran_text, write_nastran
+from antinode.exchange.units import MM_T_S, SI
+from cli_run import refused, run
+from exchange.conversions import solved
+from exchange.deck_solver import Deck
+
+NAMES = ("starter", "tower", "shaft", "everything")
+BAR = """\
+SOL 103
+CEND
+SPC = 7
+METHOD = 1
+BEGIN BULK
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,3.,0.,0.
+CBAR,1,1,1,2,0.,1.,0.
+CBAR,2,1,2,3,0.,1.,0.
+PBAR,1,1,1.-3,2.-6,3.-6,,0.5
+MAT1,1,2.1+11,,.3,7850.
+CONM2,9,3,,12.5,.1
+SPC1,7,12,1,3
+EIGRL,1,,,3
+ENDDATA
+"""
+
+
+def deck(tmp_path, text):
+    path = tmp_path / "deck.bdf"
+    path.write_text(text)
+    return path
+
+
+def fields(*cells):
+    """A card in fields of eight characters."""
+    return f"{cells[0]:<8}" + "".join(f"{cell:>8}" for cell in cells[1:])
+
+
+def expected(text):
+    """The table of frequencies in the comments: name to those with N and without."""
+    rows = re.findall(r"^\$ (.{24})\s*(omega2 \S+|\S+)\s+(\S+)$", text, re.M)
+    return [(name.strip(), a, b) for name, a, b in rows if re.search(r"\d", a)]
+
+
+def omega2(cell):
+    """omega^2 of a cell of that table, or None where it is not given."""
+    if cell.startswith("omega2"):
+        return float(cell.split()[1])
+    return None if cell in ("-", "nan") else (2 * np.pi * float(cell)) ** 2
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_finite_elements_find_the_expected_frequencies(name, tmp_path):
+    result = solved(name)
+    write_nastran(tmp_path / "deck.bdf", result)
+    rows = expected((tmp_path / "deck.bdf").read_text())
+    assert len(rows) == len(result.modes)
+    solver = Deck(tmp_path / "deck.bdf")
+    scale = result.mode("bending", 1).omega2
+    for subcase, column in ((2, 2), (3, 1)):
+        if subcase == 3 and result.beam.is_unloaded:
+            continue
+        bending, longitudinal = solver.modes(subcase)
+        for mode, row in zip(result.modes, rows, strict=True):
+            value = omega2(row[column])
+            if value is not None:
+                found = bending if mode.family == "bending" else longitudinal
+                off = np.min(np.abs(found - value)) / max(abs(value), scale)
+                assert off < (5e-5 if mode.family == "bending" else 1e-3), (row, subcase, off)
+
+
+@pytest.mark.parametrize("system", [SI, MM_T_S])
+@pytest.mark.parametrize("name", NAMES)
+def test_a_deck_gives_the_beam_back(name, system, tmp_path):
+    result = solved(name)
+    write_nastran(tmp_path / "deck.bdf", result, system)
+    beam, notes = read_nastran(tmp_path / "deck.bdf", system)
+    assert system.words in notes[0]
+    again = solve_modes(beam, 3, tolerance=1e-7)
+    weight = replace(result.beam, offset_weight=False)
+    wanted = solve_modes(weight, 3, tolerance=1e-7)
+    scale = wanted.mode("bending", 1).omega2
+    for a, b in zip(again.modes, wanted.modes, strict=True):
+        assert abs(a.omega2 - b.omega2) < 1e-4 * max(abs(b.omega2), scale), b.name
+
+
+def test_stepped_beams_come_back_to_all_digits(tmp_path):
+    result = solved("everything")
+    write_nastran(tmp_path / "deck.bdf", result)
+    beam, _ = read_nastran(tmp_path / "deck.bdf")
+    again = solve_modes(beam, 3, tolerance=1e-7)
+    for a, b in zip(again.modes, result.modes, strict=True):
+        assert a.omega2 == pytest.approx(b.omega2, rel=1e-8)
+
+
+def test_fields_small_large_and_free(tmp_path):
+    large = BAR.replace(
+        "PBAR,1,1,1.-3,2.-6,3.-6,,0.5\n",
+        "PBAR*                  1               1          1.0D-3          2.0E-6*A\n"
+        "*A                3.0E-6                              .5\n",
+    )
+    small = BAR.replace("CBAR,1,1,1,2,0.,1.,0.", fields("CBAR", 1, 1, 1, 2, "0.", "1.", "0."))
+    small = small.replace("CONM2,9,3,,12.5,.1", fields("CONM2", 9, 3, "", "12.5", ".1"))
+    beams = [read_nastran(deck(tmp_path, text))[0] for text in (BAR, large, small)]
+    for beam in beams:
+        assert beam.bending_stiffness[0, 0] == pytest.approx(2.1e11 * 2e-6)
+        assert beam.mass_per_length[0, 0] == pytest.approx(7.85 + 0.5)
+        assert beam.axial_stiffness[1, 1] == pytest.approx(2.1e8)
+        assert beam.attachments == (PointMass(3.0, 12.5, 0.0, 0.1),)
+        assert beam.ends == Ends("pinned", "pinned", "fixed", "fixed")
+
+
+def test_plane_2_bends_about_the_other_axis(tmp_path):
+    text = BAR.replace("SPC1,7,12,1,3", "SPC1,7,13,1,3")
+    beam, _ = read_nastran(deck(tmp_path, text), plane=2)
+    assert beam.bending_stiffness[0, 0] == pytest.approx(2.1e11 * 3e-6)
+    assert beam.ends.left == "pinned"
+
+
+def test_a_tapered_pbeam(tmp_path):
+    text = BAR.replace("CBAR", "CBEAM").replace(
+        "PBAR,1,1,1.-3,2.-6,3.-6,,0.5",
+        "PBEAM,1,1,1.-3,2.-6,3.-6,,,0.5\n,0.,0.,0.,0.,0.,0.,0.,0.\n"
+        ",YES,.5,2.-3,4.-6,3.-6\n,,,,,,,,\n,NO,1.,1.-3,2.-6,,,,.7\n,0.,0.",
+    )
+    beam, notes = read_nastran(deck(tmp_path, text))
+    np.testing.assert_allclose(beam.x, [0, 0.5, 1, 2, 3])
+    np.testing.assert_allclose(beam.bending_stiffness[0], [4.2e5, 8.4e5])
+    np.testing.assert_allclose(beam.mass_per_length[1], [15.7 + 0.5, 7.85 + 0.7])
+    assert beam.interpolation == "linear"
+    assert not any("shear" in note for note in notes)
+    sheared = text.replace("\n,0.,0.\n", "\n")
+    assert any("shear" in note for note in read_nastran(deck(tmp_path, sheared))[1])
+
+
+def test_a_beam_that_runs_against_an_axis_and_elements_that_run_back(tmp_path):
+    text = BAR.replace("GRID,2,,1.,", "GRID,2,,-1.,").replace("GRID,3,,3.,", "GRID,3,,-3.,")
+    text = text.replace("CBAR,2,1,2,3", "CBAR,2,1,3,2")
+    beam, _ = read_nastran(deck(tmp_path, text))
+    np.testing.assert_allclose(beam.x, [-3, -1, 0])
+    assert beam.attachments[0].x == -3
+    assert beam.attachments[0].offset == 0.1
+
+
+def test_springs_supports_and_joints_by_their_cards(tmp_path):
+    text = BAR.replace("CBAR,2,1,2,3", "GRID,4,,1.,0.,0.\nCBAR,2,1,4,3").replace(
+        "EIGRL", "RBE2,50,2,12,4\nCELAS2,51,1.+5,2,6,4,6\nCELAS2,52,3.+4,2,2\nSPC1,7,1,2\nEIGRL"
+    )
+    beam, _ = read_nastran(deck(tmp_path, text))
+    assert set(beam.attachments) == {
+        PointMass(3.0, 12.5, 0.0, 0.1),
+        Spring(1.0, 3e4),
+        Spring(1.0, axial=np.inf),
+        Joint(1.0, 1e-5),
+    }
+
+
+WRONG = {
+    "a card that is not known": (
+        ("CONM2,9", "CROD,9,1,1,3\nCONM2,9"),
+        ("line 13: CROD", "not understood"),
+    ),
+    "a word for a number": (("2.-6", "two"), ("line 11: PBAR: field 4 is 'two'", "number")),
+    "a grid that is missing": (("1,2,0.,1.,0.", "1,8,0.,1.,0."), ("CBAR", "no GRID 8")),
+    "a grid off the line": (
+        ("2,,1.,0.,0.", "2,,1.,.1,0."),
+        ("GRID", "grid 2", "line of the others"),
+    ),
+    "a gap": (("CBAR,2,1,2,3,0.,1.,0.\n", "GRID,4,,4.,0.,0.\nCBAR,2,1,3,4,0.,1.,0.\n"), ("gap",)),
+    "two beside each other": (("PBAR,", "CBAR,3,1,2,1,0.,1.,0.\nPBAR,"), ("line 11", "beside")),
+    "one past a grid": (("CBAR,1,1,1,2", "CBAR,1,1,1,3"), ("line 9: CBAR", "past another grid")),
+    "an orientation along the beam": (
+        ("1,1,1,2,0.,1.,0.", "1,1,1,2,1.,0.,0."),
+        ("line 9", "across it"),
+    ),
+    "a turned element": (("2,1,2,3,0.,1.,0.", "2,1,2,3,0.,1.,1."), ("line 10", "turned")),
+    "a pin flag": (("1,1,1,2,0.,1.,0.", "1,1,1,2,0.,1.,0.,\n,5"), ("CBAR", "pin flag")),
+    "another one": (("GRID,2,,1.", "GRID,1,,1."), ("line 7: GRID", "another one")),
+    "no property": (("CBAR,1,1,", "CBAR,1,6,"), ("line 9: CBAR", "PBAR or PBEAM 6")),
+    "no material": (("PBAR,1,1,", "PBAR,1,5,"), ("PBAR", "no MAT1 5")),
+    "a coordinate system": (("GRID,3,,3.", "GRID,3,4,3."), ("GRID", "coordinate system")),
+    "a mass off the axis": ((",.1\nSPC1", ",.1,.2\nSPC1"), ("CONM2", "off the axis")),
+    "a cut file": (("ENDDATA\n", ""), ("no ENDDATA", "cut off")),
+    "no bulk": (("BEGIN BULK\n", ""), ("no BEGIN BULK",)),
+    "ten and more fields": (
+        ("GRID,1,,0.,0.,0.", "GRID,1,,0.,0.,0.,,,,,,"),
+        ("line 6", "at most ten"),
+    ),
+    "a continuation alone": (("GRID,1", "+,1\nGRID,1"), ("line 6", "none is before it")),
+    "a name that is none": (("GRID,1", "GR-D,1"), ("line 6", "no name of a card")),
+}
+WRONG["no mass"] = ((",,0.5\nMAT1,1,2.1+11,,.3,7850.", "\nMAT1,1,2.1+11,,.3"), ("mass per length",))
+
+
+@pytest.mark.parametrize("what", WRONG)
+def test_what_is_not_understood_is_refused(what, tmp_path):
+    (old, new), words = WRONG[what]
+    assert old in BAR
+    path = deck(tmp_path, BAR.replace(old, new, 1))
+    refused(run("convert", path, tmp_path / "beam.toml"), str(path), *words)
+    assert not (tmp_path / "beam.toml").exists()
+
+
+def test_several_sets_of_supports_without_case_control(tmp_path):
+    bulk = BAR.partition("BEGIN BULK\n")[2].replace("SPC1,7,12,1,3", "SPC1,7,12,1\nSPC1,8,2,3")
+    with pytest.raises(InputError, match="SPC sets 7, 8"):
+        read_nastran(deck(tmp_path, bulk))
+    one = bulk.replace("SPC1,8", "SPC1,7")
+    assert read_nastran(deck(tmp_path, one))[0].ends == Ends("pinned", "pinned", "fixed", "free")
+
+
+def test_a_preload_that_does_not_balance(tmp_path):
+    text = nastran_text(solved("starter"))
+    assert "STATSUB(PRELOAD) = 1" in text
+    text = text.replace("SPC1*                  1             126               1\n", "")
+    text = re.sub(r"(?m)^FORCE\*.*\n\*.*\n", "", text, count=1)
+    with pytest.raises(InputError, match="add up to"):
+        read_nastran(deck(tmp_path, text))
+
+
+def test_case_control_that_names_no_static_subcase(tmp_path):
+    text = BAR.replace("METHOD = 1\n", "METHOD = 1\nSTATSUB = 5\n")
+    with pytest.raises(InputError, match="STATSUB names subcase 5"):
+        read_nastran(deck(tmp_path, text))
+
+
+@pytest.mark.parametrize("value", [1.0, -1.5, 1 / 3, -2e-300, 6.02214076e23, 123456.789, 0.0])
+def test_reals_keep_their_digits(value, tmp_path):
+    text = real_text(value)
+    assert len(text) <= 16
+    assert "." in text
+    path = deck(tmp_path, card_text("PARAM", "X", value))
+    assert read_deck(path).cards[0].real(2) == pytest.approx(value, rel=1e-8)

@@ -1,0 +1,101 @@
+"""Beams as beam files, CSV and workbooks, there and back; independent readers open them."""
+
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import openpyxl
+import pytest
+
+from antinode import InputError, load_beam
+from antinode.beam import Beam, Ends
+from antinode.exchange.beam_toml import beam_file_text
+from antinode.exchange.inputs import Choices, read_beam
+from antinode.exchange.outputs import write_beam
+from antinode.exchange.tabulated import tabulate
+from exchange.conversions import EXAMPLES, difference, everything, example, solved
+
+NAMES = (*EXAMPLES, "everything")
+
+
+def beam_of(name):
+    return solved(name).beam
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_beam_file_gives_the_beam_back(name, tmp_path):
+    path = tmp_path / "beam.toml"
+    write_beam(path, beam_of(name), "toml")
+    assert tomllib.loads(path.read_text())["beam"]["name"] == beam_of(name).name
+    assert difference(load_beam(path).beam(), name) < 3e-9
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_workbook_gives_the_beam_back(name, tmp_path):
+    path = tmp_path / "beam.xlsx"
+    write_beam(path, beam_of(name), "xlsx")
+    assert difference(read_beam(path, "xlsx", Choices()).beam, name) < 3e-9
+    sheet = openpyxl.load_workbook(path)["stations"]
+    assert sheet["A1"].value == "x [m]"
+    assert sheet["A2"].value == beam_of(name).x[0]
+
+
+@pytest.mark.parametrize("name", ["starter", "beam", "rocket"])
+def test_csv_gives_the_stations_back(name, tmp_path):
+    path = tmp_path / "stations.csv"
+    write_beam(path, beam_of(name), "csv")
+    ends = beam_of(name).ends
+    sets = (f"beam.ends.left={ends.left}", f"beam.ends.right={ends.right}")
+    beam = read_beam(path, "csv", Choices(sets)).beam
+    again = replace(beam, attachments=())
+    if not beam_of(name).attachments:
+        assert difference(again, name) < 1e-7
+    else:
+        assert again.length == pytest.approx(beam_of(name).length, rel=1e-12)
+
+
+def test_a_stepped_table_is_kept_as_it_is():
+    beam = Beam.from_stations([0, 1, 3], [2, 1, 1], [5, 4, 4], axial_force=[7, 8, 0])
+    stations = tabulate(beam)
+    assert stations.interpolation == "step"
+    assert stations.columns["axial_force"].tolist() == [7, 8, 8]
+    assert stations.columns["x"].tolist() == [0, 1, 3]
+
+
+def test_a_jump_among_straight_columns_is_two_rows():
+    beam = Beam(
+        np.array([0.0, 1, 2]),
+        np.array([[1.0, 2], [2, 3]]),
+        np.array([[4.0, 4], [5, 5]]),
+        interpolation="linear",
+    )
+    stations = tabulate(beam)
+    assert len(stations.columns["x"]) == 4
+    assert np.diff(stations.columns["x"])[1] == pytest.approx(2e-9, rel=1e-6)
+    assert "1 jump" in stations.notes[0]
+
+
+def test_a_force_that_no_file_can_hold_is_refused():
+    beam = Beam.from_stations(
+        [0, 1, 2], [1, 1, 1], [4, 4, 4], [9, 9, 9], ends=Ends("clamped", "clamped")
+    )
+    beam = replace(beam, interpolation="linear", axial_force=np.array([[1.0, 2], [5, 6]]))
+    with pytest.raises(InputError, match="several supports"):
+        beam_file_text(beam)
+
+
+def test_names_with_quotes_and_formulas(tmp_path):
+    for name in ('a "b" \\ c', "=1+1", "ä\tb"):
+        beam = replace(example("beam"), name=name)
+        text, _ = beam_file_text(beam)
+        assert tomllib.loads(text)["beam"]["name"] == name
+        write_beam(tmp_path / "b.xlsx", beam, "xlsx")
+        cell = openpyxl.load_workbook(tmp_path / "b.xlsx")["beam"]["B2"]
+        assert (cell.value, cell.data_type) == (name, "s")
+
+
+def test_everything_is_in_the_workbook(tmp_path):
+    write_beam(tmp_path / "b.xlsx", everything(), "xlsx")
+    book = openpyxl.load_workbook(tmp_path / "b.xlsx")
+    assert book.sheetnames == ["stations", "beam", "point_masses", "springs", "joints"]
+    assert book["springs"]["B3"].value == "inf"
