@@ -7,9 +7,12 @@ nothing: what it had in hand is computed again.
 from __future__ import annotations
 
 import multiprocessing
+import pickle
+import uuid
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -27,6 +30,8 @@ Done = Iterator[tuple[int, Arrays]]
 _IN_HAND = 3  # chunks that wait for each worker
 _MOST_BREAKS = 20  # pools that may die without a chunk between them
 _SECONDS = 10  # for a scheduler to answer
+_PATIENCE = 60  # seconds for a first worker
+_TRIES = 10  # of a chunk whose worker dies
 
 
 def run_here(points: Points, chunks: Sequence[int]) -> Done:
@@ -127,8 +132,13 @@ def connect(scheduler: str) -> Any:
         ) from error
 
 
-def _on_dask(study: Study, chunk: int) -> Arrays:
-    return compute_chunk(points_of(study), chunk)
+@lru_cache(maxsize=2)
+def _unpacked(payload: bytes) -> Points:
+    return points_of(pickle.loads(payload))
+
+
+def _on_dask(payload: bytes, chunk: int) -> Arrays:
+    return compute_chunk(_unpacked(payload), chunk)
 
 
 def run_on_dask(points: Points, chunks: Sequence[int], client: Any) -> Done:
@@ -136,36 +146,55 @@ def run_on_dask(points: Points, chunks: Sequence[int], client: Any) -> Done:
 
     Raises
     ------
+    InputError
+        If the scheduler has no workers.
     ComputationError
         If the cluster fails.
     """
     import distributed
 
     dask: Any = distributed
-    rest = iter(chunks)
+    _wait_for_workers(client)
+    rest, payload = iter(chunks), pickle.dumps(points.study)
+
+    run, lost = f"antinode-{uuid.uuid4().hex[:12]}", 0
+
+    def submit(chunk: int) -> Any:
+        key = f"{run}-{lost}-{chunk}"
+        return client.submit(_on_dask, payload, chunk, key=key, pure=False, retries=_TRIES)
+
     try:
-        study = client.scatter(points.study, broadcast=True)
-
-        def submit(number: int) -> list[Any]:
-            return [
-                client.submit(
-                    _on_dask, study, chunk, key=f"antinode-{chunk}", pure=False, retries=5
-                )
-                for chunk in _some(rest, number)
-            ]
-
         threads = sum(client.nthreads().values()) or 2
-        pending = dask.as_completed(submit(max(2, threads * _IN_HAND)))
+        first = [submit(chunk) for chunk in _some(rest, max(2, threads * _IN_HAND))]
+        pending = dask.as_completed(first, loop=client.loop)
         for future in pending:
             chunk = int(future.key.rpartition("-")[2])
-            yield chunk, future.result()
+            try:
+                arrays = future.result()
+            except (dask.KilledWorker, dask.CancelledError):
+                lost += 1
+                if lost > _MOST_BREAKS:
+                    raise
+                pending.add(submit(chunk))
+                continue
+            yield chunk, arrays
             future.release()
-            for more in submit(1):
-                pending.add(more)
-    except (OSError, TimeoutError, RuntimeError) as error:
+            for more in _some(rest, 1):
+                pending.add(submit(more))
+    except (OSError, RuntimeError, dask.CancelledError, dask.KilledWorker) as error:
         raise ComputationError(
             f"the Dask cluster failed ({type(error).__name__}: {short(str(error))}); finished "
             "chunks are kept: run the same command again"
+        ) from error
+
+
+def _wait_for_workers(client: Any) -> None:
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE)
+    except TimeoutError as error:
+        raise InputError(
+            f"the Dask scheduler has no worker after {_PATIENCE} s; start some, e.g. with "
+            "'dask worker' and its address"
         ) from error
 
 

@@ -177,6 +177,8 @@ def _into_store(
         names = tuple(name for name in about if name not in _TRACKED)
         after = tuple(name for name in about if name in _TRACKED)
         missing = store.unfinished(names, after)
+        for name, (_, values, _) in _fixed(points).items():
+            store.mend(name, values)
         left = [c for c in missing if c < points.chunks]
         done = set(range(points.chunks)) - set(left)
         _tell(progress, points, done)

@@ -1,0 +1,256 @@
+"""The store of a sweep: it goes on, it notices damage, and it refuses what is not its own."""
+
+import errno
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+import numpy as np
+import pytest
+import xarray
+
+import antinode as an
+from antinode.study import store as store_module
+from antinode.study.store import TIMESTAMPS, locked
+from antinode.study.sweep import sweep
+from cli_run import contents, python, refused, run
+
+SMALL = ("--set", "design.number=96", "--set", "run.chunk=16")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("sweep")
+    run("init", "--example", "sweep", folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def study(folder):
+    return an.load_study(folder / "samples.toml", SMALL[1::2])
+
+
+@pytest.fixture(scope="module")
+def whole(study, tmp_path_factory):
+    """An undisturbed store."""
+    path = tmp_path_factory.mktemp("whole") / "s.zarr"
+    sweep(study, path)
+    return path
+
+
+def same(path, other):
+    """Assert that two stores hold the same, timestamps apart."""
+    one, two = (an.open_store(p).load() for p in (path, other))
+    for name in TIMESTAMPS:
+        for dataset in (one, two):
+            dataset.attrs.pop(name)
+    xarray.testing.assert_identical(one, two)
+
+
+class StoppedError(Exception):
+    pass
+
+
+def stop_after(number):
+    seen = []
+
+    def progress(done, cases):
+        seen.append(done)
+        if len(seen) > number:
+            raise StoppedError
+
+    return progress
+
+
+def test_the_store_holds_what_memory_would(study, whole):
+    here = sweep(study)
+    there = an.open_store(whole).load()
+    xarray.testing.assert_identical(here.drop_attrs(deep=False), there.drop_attrs(deep=False))
+    same_attrs = {k: v for k, v in here.attrs.items() if k not in TIMESTAMPS}
+    assert same_attrs == {k: v for k, v in there.attrs.items() if k not in TIMESTAMPS}
+
+
+def test_any_reader_of_zarr_reads_it(whole):
+    with xarray.open_zarr(whole, consolidated=False, chunks=None) as plain:
+        assert plain.frequency_hz.dims == ("case", "mode")
+        assert plain.frequency_hz.attrs["units"] == "Hz"
+
+
+def test_a_run_goes_on_where_it_was_stopped(study, whole, tmp_path):
+    path = tmp_path / "s.zarr"
+    with pytest.raises(StoppedError):
+        sweep(study, path, progress=stop_after(3))
+    told = []
+    sweep(study, path, progress=lambda done, _: told.append(done))
+    assert told == [48, 64, 80, 96]
+    same(path, whole)
+
+
+def test_a_finished_store_is_left_alone(study, whole, tmp_path):
+    path = tmp_path / "s.zarr"
+    shutil.copytree(whole, path)
+    before = contents(path)
+    sweep(study, path)
+    assert contents(path) == before
+
+
+@pytest.mark.parametrize("how", ["flipped", "cut", "lost", "empty", "swapped"])
+def test_a_corrupted_chunk_is_computed_again(study, whole, tmp_path, how):
+    path = tmp_path / "s.zarr"
+    shutil.copytree(whole, path)
+    chunk = path / "frequency_hz" / "c" / "2" / "0"
+    data = chunk.read_bytes()
+    if how == "flipped":
+        middle = len(data) // 2
+        chunk.write_bytes(data[:middle] + bytes([data[middle] ^ 1]) + data[middle + 1 :])
+    elif how == "cut":
+        chunk.write_bytes(data[:-7])
+    elif how == "lost":
+        chunk.unlink()
+    elif how == "empty":
+        chunk.write_bytes(b"")
+    else:
+        chunk.write_bytes((path / "frequency_hz" / "c" / "3" / "0").read_bytes())
+    told = []
+    sweep(study, path, progress=lambda done, _: told.append(done))
+    assert told == [80, 96]
+    same(path, whole)
+
+
+def test_tracked_modes_are_written_again_if_they_are_damaged(folder, tmp_path):
+    study = an.load_study(folder / "history.toml", ["run.chunk=16"])
+    path, other = tmp_path / "a.zarr", tmp_path / "b.zarr"
+    sweep(study, path)
+    shutil.copytree(path, other)
+    (other / "tracked_mode" / "c" / "1" / "0").unlink()
+    (other / "checksum" / "c" / "3").write_bytes(b"no number")
+    (other / "checksum" / "c" / "1").write_bytes(b"")
+    (other / "point" / "c" / "0").unlink()
+    sweep(study, other)
+    same(path, other)
+
+
+def test_a_store_that_is_damaged_beyond_repair_says_so(study, whole, tmp_path):
+    path = tmp_path / "s.zarr"
+    shutil.copytree(whole, path)
+    (path / "a_X" / "zarr.json").write_text("{")
+    with pytest.raises(an.InputError, match="a_X is damaged beyond repair"):
+        sweep(study, path)
+    sweep(study, path, overwrite=True)
+    same(path, whole)
+
+
+OTHERS = {
+    "study": (("design.number=97", "run.chunk=16"), "another study"),
+    "chunk": (("design.number=96", "run.chunk=24"), "another study"),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_a_store_of_another_study_is_refused(folder, whole, name):
+    assignments, words = OTHERS[name]
+    before = contents(whole)
+    with pytest.raises(an.InputError, match=words):
+        sweep(an.load_study(folder / "samples.toml", assignments), whole)
+    assert contents(whole) == before
+
+
+def test_a_store_of_another_case_or_version_is_refused(folder, whole, study, tmp_path, monkeypatch):
+    shutil.copytree(folder, tmp_path / "other")
+    file = tmp_path / "other" / "case.toml"
+    file.write_text(file.read_text().replace("80 mm", "81 mm"))
+    other = an.load_study(tmp_path / "other" / "samples.toml", SMALL[1::2])
+    with pytest.raises(an.InputError, match="another case"):
+        sweep(other, whole)
+    monkeypatch.setattr("antinode.study.sweep.__version__", "9.9.9")
+    with pytest.raises(an.InputError, match=r"another version .* \(0.1.0, this is 9.9.9\)"):
+        sweep(study, whole)
+
+
+def test_what_is_no_store_is_kept(study, tmp_path):
+    (tmp_path / "letters").mkdir()
+    (tmp_path / "letters" / "a.txt").write_text("dear")
+    for overwrite in (False, True):
+        with pytest.raises(an.InputError, match="no store of a sweep"):
+            sweep(study, tmp_path / "letters", overwrite=overwrite)
+    (tmp_path / "file").write_text("dear")
+    with pytest.raises(an.InputError, match="this is a file"):
+        sweep(study, tmp_path / "file")
+    assert (tmp_path / "letters" / "a.txt").read_text() == "dear"
+    with pytest.raises(an.InputError, match="no store of a sweep"):
+        an.open_store(tmp_path / "letters")
+
+
+def test_a_second_run_on_a_store_is_refused(study, tmp_path):
+    path = tmp_path / "s.zarr"
+    with locked(path), pytest.raises(an.InputError, match="another run works on this store"):
+        sweep(study, path)
+    sweep(study, path)
+    assert not list(tmp_path.glob("*.lock"))
+
+
+def test_a_folder_that_cannot_be_written_is_refused(study, tmp_path, monkeypatch):
+    with pytest.raises(an.InputError, match="there is no folder"):
+        sweep(study, tmp_path / "none" / "s.zarr")
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    with pytest.raises(an.InputError, match="Permission denied"):
+        sweep(study, tmp_path / "s.zarr")
+    assert contents(tmp_path) == {}
+
+
+def test_a_full_disk_says_so_and_goes_on_later(study, whole, tmp_path, monkeypatch):
+    path, checksum, count = tmp_path / "s.zarr", store_module.checksum, []
+
+    def full(arrays):
+        count.append(1)
+        if len(count) == 3:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return checksum(arrays)
+
+    monkeypatch.setattr(store_module, "checksum", full)
+    with pytest.raises(an.ComputationError, match="no space is left on the disk; 2 of 6 chunks"):
+        sweep(study, path)
+    monkeypatch.undo()
+    sweep(study, path)
+    same(path, whole)
+
+
+def test_a_broken_writer_leaves_no_half_made_store(study, tmp_path, monkeypatch):
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("zarr.Group.create_array", full)
+    with pytest.raises(an.InputError, match="cannot be written"):
+        sweep(study, tmp_path / "s.zarr")
+    assert contents(tmp_path) == {}
+
+
+def test_a_clock_that_goes_backwards_changes_nothing(study, whole, tmp_path, monkeypatch):
+    monkeypatch.setattr("antinode.study.sweep._now", lambda: "1970-01-01T00:00:00+00:00")
+    path = tmp_path / "s.zarr"
+    with pytest.raises(StoppedError):
+        sweep(study, path, progress=stop_after(2))
+    monkeypatch.undo()
+    sweep(study, path)
+    same(path, whole)
+
+
+def test_killed_at_random_it_equals_an_undisturbed_run(folder, whole, tmp_path):
+    rng, path = np.random.default_rng(1), tmp_path / "s.zarr"
+    command = python("sweep", folder / "samples.toml", "-o", path, "--json", *SMALL)
+    for _ in range(3):
+        with subprocess.Popen(
+            command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+        ) as process:
+            time.sleep(rng.uniform(0.8, 2.2))
+            os.killpg(process.pid, signal.SIGKILL)
+    ended = run("sweep", folder / "samples.toml", "-o", path, "--json", *SMALL)
+    assert json.loads(ended.out)["failed"] == 0
+    same(path, whole)
+
+
+def test_the_command_refuses_another_study(folder, whole):
+    refused(run("sweep", folder / "history.toml", "-o", whole), "another study", "--overwrite")
