@@ -22,6 +22,9 @@ from .options import (
     Json,
     Output,
     Overwrite,
+    ReportFile,
+    ReportModes,
+    ReportTolerance,
     Set,
     Solver,
     ToFormat,
@@ -344,6 +347,36 @@ def app_(
     from .app.server import run_app
 
     run_app(file, set_, host=host, port=port, show=show)
+
+
+@app.command(sort_key=12)
+def report(
+    file: Path,
+    /,
+    *,
+    output: ReportFile,
+    set_: Set = (),
+    modes: ReportModes = None,
+    tolerance: ReportTolerance = None,
+    json: Json = False,
+) -> None:
+    """Write a report on a case or a beam that can be handed to a reviewer: .pdf or .html.
+
+    Assumptions first, then inputs, loads with their checks, the ranges of the correlations,
+    frequencies with errors and brackets, the effect of the axial force, shapes, sensitivities,
+    warnings, and where it all comes from. The page loads nothing.
+
+    - Example: **antinode report case.toml -o report.pdf**
+    - Example: **antinode report beam.toml -o report.html --modes 4**
+
+    Parameters
+    ----------
+    file
+        A case or a beam file in TOML.
+    """
+    from .report.command import run_report
+
+    run_report(file, set_, output, modes=modes, tolerance=tolerance, json=json)
 
 
 @app.command(sort_key=5)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from .beam import Beam
     from .case import Case
     from .riccati.chain import Family
     from .vehicle import FinSet, Vehicle
@@ -56,10 +57,21 @@ def plot_modes(result: ModalResult, most: int = 6) -> Figure:
     draw_beam(beam, axes[0])
     _shape_panels(result, axes[1:], most)
     if not beam.is_unloaded:
-        _axial_force_of_beam(result, axes[-1])
+        _axial_force_of_beam(beam, axes[-1])
     for panel in axes[1:]:
         mark_stations(beam, panel)
     return _titled(figure, axes, f"{beam.name}: natural modes", "x from the left end [m]")
+
+
+@styled()
+def plot_beam(beam: Beam) -> Figure:
+    """Draw a beam with what is attached, and its axial force, where there is one."""
+    figure, axes = _stack((0.6,) if beam.is_unloaded else (0.6, 1.0))
+    draw_beam(beam, axes[0])
+    if not beam.is_unloaded:
+        _axial_force_of_beam(beam, axes[1])
+        mark_stations(beam, axes[1])
+    return _titled(figure, axes, "", "x from the left end [m]")
 
 
 @styled()
@@ -109,8 +121,9 @@ def _stack(heights: tuple[float, ...]) -> tuple[Figure, Any]:
         sharex=True,
         layout="constrained",
         height_ratios=heights,
+        squeeze=False,
     )
-    return figure, axes
+    return figure, axes[:, 0]
 
 
 def _titled(figure: Figure, axes: Any, title: str, label: str) -> Figure:
@@ -165,8 +178,7 @@ def mode_label(mode: Mode) -> str:
     return f"{mode.name}: {f'{mode.frequency_hz:#.4g}'.rstrip('.')} Hz"
 
 
-def _axial_force_of_beam(result: ModalResult, axes: Axes) -> None:
-    beam = result.beam
+def _axial_force_of_beam(beam: Beam, axes: Axes) -> None:
     k = np.repeat(np.arange(len(beam.x) - 1), 21)
     t = np.tile(np.linspace(0, 1, 21), len(beam.x) - 1)
     x = beam.x[k] + np.diff(beam.x)[k] * t

@@ -152,6 +152,27 @@ class Output:
     ] = None
 
 
+ReportFile = Annotated[
+    Path,
+    Parameter(name=["-o", "--output"], help="The report to write: .pdf or .html.", group=_output),
+]
+ReportModes = Annotated[
+    int | None,
+    Parameter(
+        name="--modes",
+        converter=_whole,
+        help="Elastic modes 1 ... n of each family; default: the file's, or 6.",
+        group=_solver,
+    ),
+]
+ReportTolerance = Annotated[
+    float | None,
+    Parameter(
+        name="--tolerance",
+        help="Largest relative error of a frequency; default: the file's, or 1e-6.",
+        group=_solver,
+    ),
+]
 FromFormat = Annotated[
     str,
     Parameter(

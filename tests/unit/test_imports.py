@@ -104,6 +104,24 @@ STUDY = (
     "study.sweep_report",
     "study.sweep_command",
 )
+REPORT = (
+    "report",
+    "report.blocks",
+    "report.numbers",
+    "report.extras",
+    "report.words",
+    "report.provenance",
+    "report.inputs",
+    "report.load_sections",
+    "report.modal_sections",
+    "report.influence",
+    "report.influence_section",
+    "report.vehicle_report",
+    "report.beam_report",
+    "report.html",
+    "report.pdf",
+    "report.command",
+)
 EXAMPLES = ("examples",)
 APP = (
     "app",
@@ -146,6 +164,7 @@ MAY_IMPORT = {
     OUTPUTS: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS),
     PAPER: (WORDS, RICCATI, BEAM, MODES, INPUTS, OUTPUTS),
     STUDY: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),
+    REPORT: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS, STUDY),
     EXAMPLES: (WORDS,),
     APP: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS, EXAMPLES),
     COMMANDS: (EXAMPLES, WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),

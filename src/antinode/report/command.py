@@ -1,0 +1,100 @@
+"""What `antinode report` does: read, solve, write a document."""
+
+from __future__ import annotations
+
+import json as jsonlib
+import shlex
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from antinode.beam_file import BeamFile, Solve, load_beam
+from antinode.case import Case, load_case
+from antinode.dataset import check_output
+from antinode.errors import InputError
+from antinode.explain import validate
+from antinode.files import read_toml
+from antinode.modes import solve_modes
+from antinode.result import ModalResult
+
+from .beam_report import beam_report
+from .blocks import Document
+from .extras import ENDINGS, check_libraries
+from .html import to_html
+from .pdf import to_pdf
+from .provenance import source_of
+from .vehicle_report import vehicle_report
+
+
+def run_report(
+    file: Path,
+    assignments: tuple[str, ...],
+    output: Path,
+    *,
+    modes: int | None = None,
+    tolerance: float | None = None,
+    json: bool = False,
+) -> None:
+    """Write the report on a case or a beam, and say so."""
+    started = time.monotonic()
+    check_output(output, ENDINGS)
+    check_libraries(output)
+    document, told = make_report(file, assignments, modes, tolerance)
+    write_report(document, output)
+    if json:
+        facts = {"hash": dict(document.facts)["Inputs, SHA-256"], "title": document.title}
+        seconds = round(time.monotonic() - started, 3)
+        _print({"report": str(output), **facts, "seconds": seconds, "warnings": told})
+    else:
+        sys.stderr.write(f"wrote {output}\n")
+
+
+def make_report(
+    file: Path,
+    assignments: tuple[str, ...] = (),
+    modes: int | None = None,
+    tolerance: float | None = None,
+) -> tuple[Document, list[str]]:
+    """Return the report on whatever a file holds, and its warnings."""
+    tables = read_toml(file)
+    if "vehicle" not in tables and "beam" not in tables:
+        raise InputError(
+            f"{file}: there is neither a table [vehicle] nor [beam] in it; name a case or a beam "
+            "file, e.g. one that 'antinode init' writes"
+        )
+    overrides = "".join(f" --set {shlex.quote(each)}" for each in assignments)
+    if "vehicle" in tables:
+        case = load_case(file, assignments)
+        result = _solved(case, modes, tolerance)
+        command = f"antinode modes {file.name}{overrides}"
+        document = vehicle_report(case, result, source_of(file, assignments, case), command)
+        return document, [*case.loads.warnings, *result.warnings]
+    beam = load_beam(file, assignments)
+    result = _solved(beam, modes, tolerance)
+    command = f"antinode beam {file.name}{overrides}"
+    document = beam_report(beam, result, source_of(file, assignments, beam), command)
+    return document, list(result.warnings)
+
+
+def _solved(problem: Case | BeamFile, modes: int | None, tolerance: float | None) -> ModalResult:
+    given = {"modes": modes, "tolerance": tolerance}
+    chosen = problem.solve.model_dump() | {k: v for k, v in given.items() if v is not None}
+    settings = validate(Solve, chosen, "command line")
+    return solve_modes(problem, settings.modes, tolerance=settings.tolerance, unloaded=True)
+
+
+def write_report(document: Document, path: Path) -> None:
+    """Write a document as HTML or PDF, by the ending, whole or not at all."""
+    page = to_html(document).encode() if path.suffix.lower() == ".html" else to_pdf(document)
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        partial.write_bytes(page)
+        partial.replace(path)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
+
+
+def _print(data: dict[str, Any]) -> None:
+    sys.stdout.write(jsonlib.dumps({"schema_version": 1, **data}, indent=2) + "\n")

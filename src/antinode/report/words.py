@@ -1,0 +1,86 @@
+"""What every report says first: equations, assumptions, signs, and what an error means."""
+
+from __future__ import annotations
+
+from antinode.result import NOT_MODELLED
+
+from .blocks import Block, Equation, Section, bullets, paragraph, runs, table
+
+_BENDING = Equation(runs("(EI Y'')'' + (N Y')' = ω^2 m Y"), "(E I Y'')'' + (N Y')' = omega^2 m Y")
+_LONGITUDINAL = Equation(runs("−(EA X')' = ω^2 m X"), "-(E A X')' = omega^2 m X")
+
+_SIGNS = (
+    ("x", "m", "along the axis from the nose or the left end", "aft, to the right"),
+    ("Y, X", "m", "lateral and axial displacement", "up; aft"),
+    ("N", "N", "axial force", "compression"),
+    ("Q", "N", "static shear force on the part ahead of x", "up"),
+    ("M", "N m", "bending moment EI Y''", "ends bent up"),
+    ("drag, lift", "N", "forces on the body", "aft; up"),
+    ("thrust", "N", "at the tail", "forward"),
+    ("angles", "rad", "cavitator, body, fins", "nose-up, or lifting"),
+)
+_BEAM_SIGNS = 5
+"""Of these, how many concern any beam."""
+
+
+def method_section(vehicle: bool) -> Section:
+    """Return assumptions and conventions."""
+    return Section("Assumptions and conventions", tuple(_method(vehicle)))
+
+
+def _method(vehicle: bool) -> list[Block]:
+    what = "vehicle is a straight free-free" if vehicle else "structure is a straight"
+    first = (
+        f"The {what} Euler-Bernoulli beam under a static axial force N(x). Bending in one plane "
+        "and longitudinal vibration are solved apart:"
+    )
+    return [
+        paragraph(first),
+        _BENDING,
+        _LONGITUDINAL,
+        paragraph(
+            "with bending stiffness EI, axial stiffness EA and mass per length m. A prime is a "
+            "derivative by x. What is assumed:"
+        ),
+        bullets([*(_OF_A_VEHICLE if vehicle else _OF_A_BEAM), *_ALWAYS]),
+        paragraph("Not in the model: " + "; ".join(NOT_MODELLED) + "."),
+        _sign_table(vehicle),
+        paragraph(_ERROR),
+        paragraph(_NAMES),
+    ]
+
+
+_OF_A_VEHICLE = (
+    "The body is rigid for the hydrodynamics: cavity and forces follow from the condition alone, "
+    "by the correlations listed with their ranges below, and do not change as the body vibrates.",
+    "The rigid body is in dynamic balance: thrust and drag accelerate it, and the inertia of its "
+    "own mass closes N, Q and M at both ends.",
+    "Static deflection, Q and M are reported; they do not change the frequencies.",
+)
+_OF_A_BEAM = (
+    "Ends and attachments are ideal: masses are rigid, springs and joints linear, supports rigid.",
+)
+_ALWAYS = (
+    "N is static and keeps its direction when the beam bends; it is the only load that changes "
+    "the frequencies.",
+    "Displacements are small and the material is linear elastic.",
+)
+_ERROR = (
+    "What an error means. The frequencies are roots of the equations above; the number of modes "
+    "below any frequency follows from the solution itself (the counts), so that none is missing. "
+    "A bracket encloses the root for the beam as divided into segments, rounding included. The "
+    "error adds what dividing a beam that varies has cost: the frequency of the beam as given lies "
+    "within f ± error. Neither covers what the model leaves out; the column “shear, rot. "
+    "inertia” estimates that part to first order."
+)
+_NAMES = (
+    "Names. Rigid modes have number 0 and are set aside by their index; the others are numbered "
+    "1, 2, … in the order of ω^2, whatever its sign. A mode with ω^2 < 0 is divergent: it has no "
+    "frequency, and its motion grows at the rate given, as exp(rate · t)."
+)
+
+
+def _sign_table(vehicle: bool) -> Block:
+    rows = _SIGNS if vehicle else _SIGNS[:_BEAM_SIGNS]
+    head = ("symbol", "unit", "meaning", "positive")
+    return table("Signs and units.", head, rows, left=(0, 1, 3), wide=(2,))

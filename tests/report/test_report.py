@@ -1,0 +1,209 @@
+"""Reports: complete, the same in HTML and PDF, self-contained; what their numbers say is true."""
+
+import json
+import math
+import re
+import sys
+
+import numpy as np
+import pytest
+
+from antinode import load_beam, load_case, solve_modes
+from antinode.errors import InputError
+from antinode.examples import write_example
+from antinode.report.blocks import Table, runs, table
+from antinode.report.command import make_report, run_report
+from antinode.report.html import to_html
+from antinode.report.influence import beam_influences, case_influences
+from antinode.report.numbers import apart, number, percent, small
+from antinode.report.provenance import hash_of
+from cli_run import run
+
+TITLES = [
+    "Assumptions and conventions",
+    "Inputs",
+    "Loads",
+    "Ranges of the correlations",
+    "Frequencies",
+    "Effect of the axial force",
+    "Mode shapes",
+    "Sensitivities",
+    "Warnings",
+    "Provenance",
+]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    where = tmp_path_factory.mktemp("report")
+    for name in ("starter", "tower"):
+        write_example(name, where / name)
+    return where
+
+
+@pytest.fixture(scope="module")
+def starter(folder):
+    return make_report(folder / "starter" / "case.toml")
+
+
+def texts(block):
+    """All cells of a table as plain texts."""
+    return [["".join(r.text + r.index for r in cell) for cell in row] for row in block.rows]
+
+
+def section(document, title):
+    return next(s for s in document.sections if s.title == title)
+
+
+def first_table(document, title):
+    return next(b for b in section(document, title).blocks if isinstance(b, Table))
+
+
+def test_a_vehicle_has_all_sections_with_assumptions_first(starter):
+    document, _ = starter
+    assert [s.title for s in document.sections if s.level == 1] == TITLES
+
+
+def test_frequencies_with_errors_brackets_and_counts(starter, folder):
+    rows = texts(first_table(starter[0], "Frequencies"))
+    row = next(r for r in rows if r[0] == "bending 1")
+    assert row[1:3] == ["elastic", "3.2487086"]
+    low, high = (float(v) for v in row[4].split("\u00a0…\u00a0"))
+    mode = solve_modes(load_case(folder / "starter" / "case.toml")).mode("bending", 1)
+    assert low <= mode.bracket_hz[0] < mode.bracket_hz[1] <= high
+    assert high - low < 1e-8
+    assert row[5:] == ["2, 3", "−0.945\u00a0%"]
+
+
+def test_the_two_checks_close_and_every_range_is_listed(starter, folder):
+    blocks = section(starter[0], "Loads").blocks
+    checks = next(b for b in blocks if isinstance(b, Table) and "checks" in b.caption[0].text)
+    assert [row[2] for row in texts(checks)] == ["closes", "closes"]
+    rows = texts(first_table(starter[0], "Ranges of the correlations"))
+    case = load_case(folder / "starter" / "case.toml")
+    assert len(rows) == len(case.loads.validity)
+    assert all(row[5] for row in rows)
+
+
+def test_a_range_that_is_left_is_marked(folder):
+    document, told = make_report(
+        folder / "starter" / "case.toml", ("condition.cavitator_angle=55deg",)
+    )
+    ranges = first_table(document, "Ranges of the correlations")
+    marked = [row for row, mark in zip(texts(ranges), ranges.marked, strict=True) if mark]
+    assert marked
+    assert all(row[4] == "OUTSIDE" for row in marked)
+    assert len(section(document, "Warnings").blocks[0].items) == len(told)
+    assert "condition.cavitator_angle=55deg" in to_html(document)
+
+
+def test_sensitivities_of_a_vehicle_are_those_of_solving_anew(folder):
+    case = load_case(folder / "starter" / "case.toml")
+    found = {i.name: i for i in case_influences(case, solve_modes(case, 3, unloaded=True), 3)}
+
+    def moved(assignment):
+        text = [] if assignment is None else [assignment]
+        anew = load_case(folder / "starter" / "case.toml", text)
+        return solve_modes(anew, 3, families=["bending"]).frequencies_hz()
+
+    f = moved(None)
+    for name, up, down in (
+        ("thrust", "thrust=50.05kN", "thrust=49.95kN"),
+        ("speed V", "speed=80.08m/s", "speed=79.92m/s"),
+        ("cavitation number σ", "cavitation_number=0.02002", "cavitation_number=0.01998"),
+    ):
+        change = (moved(f"condition.{up}") - moved(f"condition.{down}")) / f / 0.002
+        np.testing.assert_allclose(found[name].percent, change, rtol=2e-3, atol=2e-5)
+    np.testing.assert_allclose(found["mass of the body"].percent, -0.5, atol=1e-9)
+
+
+def test_sensitivities_of_a_beam_add_up(folder):
+    file = load_beam(folder / "tower" / "beam.toml")
+    found = {i.name: i.percent for i in beam_influences(file, 2, 1e-8)}
+    stiffness = found["bending stiffness EI"] + found["axial force N"]
+    np.testing.assert_allclose(stiffness, 0.5, atol=1e-5)
+    # more mass everywhere, and its weight with it: f falls by 1/2, N acts besides
+    mass = found["mass per length"] + found["point masses"]
+    np.testing.assert_allclose(mass, -0.5 + found["axial force N"], atol=1e-4)
+
+
+def test_html_is_one_file_that_loads_nothing(folder):
+    for name in ("starter/case.toml", "tower/beam.toml"):
+        page = to_html(make_report(folder / name)[0])
+        assert "http" not in page
+        assert not re.search(r"<(script|link|img|iframe)\b|@import|url\((?!#)", page)
+        assert "bending 1" in page
+        assert page.count("<svg") == 2
+
+
+def test_html_escapes_what_a_file_says(folder):
+    name = ("beam.name='<script>alert(1)</script>'",)
+    page = to_html(make_report(folder / "tower" / "beam.toml", name)[0])
+    assert "<script" not in page
+    assert "&lt;script&gt;" in page
+
+
+def test_pdf_has_pages_and_its_text_is_data(folder, tmp_path):
+    out = tmp_path / "report.pdf"
+    beam = folder / "tower" / "beam.toml"
+    run_report(beam, ('beam.name="#panic() $x$ *a*"',), out)
+    assert out.read_bytes().startswith(b"%PDF-")
+    from antinode.report.pdf import to_pictures
+
+    pages = to_pictures(make_report(beam)[0], 40)
+    assert len(pages) > 2
+    assert all(page.startswith(b"\x89PNG") for page in pages)
+
+
+def test_command_line(folder, tmp_path):
+    case = folder / "starter" / "case.toml"
+    done = run("report", case, "-o", tmp_path / "r.html", "--modes", "2", "--json")
+    said = json.loads(done.out)
+    assert said["schema_version"] == 1
+    assert (tmp_path / "r.html").exists()
+    assert said["hash"] == hash_of(load_case(case))[:16]
+    for arguments, words in (
+        (("report", case, "-o", tmp_path / "r.odt"), ".html, .pdf"),
+        (("report", case, "-o", tmp_path / "none" / "r.pdf"), "no folder"),
+        (("report", folder / "starter" / "stations.csv", "-o", tmp_path / "r.pdf"), "TOML"),
+    ):
+        refused = run(*arguments)
+        assert refused.code == 2
+        assert words in refused.err
+
+
+@pytest.mark.parametrize(("ending", "library"), [(".pdf", "typst"), (".html", "jinja2")])
+def test_a_missing_library_says_how_to_install_it(folder, tmp_path, monkeypatch, ending, library):
+    monkeypatch.setitem(sys.modules, library, None)
+    with pytest.raises(InputError, match=r"pip install 'antinode\[report\]'"):
+        run_report(folder / "starter" / "case.toml", (), tmp_path / f"r{ending}")
+
+
+def test_the_hash_is_that_of_the_numbers(folder):
+    path = folder / "starter" / "case.toml"
+    same = load_case(path, ["condition.speed=80", "condition.thrust=50000"])
+    other = load_case(path, ["condition.speed=80.1m/s"])
+    assert hash_of(load_case(path)) == hash_of(same) != hash_of(other)
+
+
+def test_symbols_powers_and_code():
+    kinds = [(r.kind, r.text, r.index) for r in runs("F_CX in m^2, sigma of `fin_position`")]
+    assert kinds == [
+        ("symbol", "F", "CX"),
+        ("text", " in m², σ of ", ""),
+        ("code", "fin_position", ""),
+    ]
+    assert [r.index for r in runs("Re_w and C_D0, cavitation_number")] == ["w", "", "D0", ""]
+
+
+def test_numbers():
+    assert number(-1.85e9) == "−1.85\u00a0×\u00a010⁹"
+    assert number(math.inf) == "∞"
+    assert number(math.nan) == "–"
+    assert number(1e-6) == "10⁻⁶"
+    assert small(3.14e-9) == "3.1\u00a0×\u00a010⁻⁹"
+    assert percent(-0.0123) == "−1.23\u00a0%"
+    low, high = apart(3.24870857948, 3.24870857962)
+    assert float(low) <= 3.24870857948
+    assert float(high) >= 3.24870857962
+    assert len(table("", ("a",), [("1",)]).rows) == 1
