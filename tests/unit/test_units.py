@@ -1,6 +1,7 @@
 """Numbers with units: what is converted, what is refused, and that nothing takes for ever."""
 
 import math
+from functools import cached_property
 
 import pytest
 from pydantic import ConfigDict, Field, ValidationError
@@ -131,3 +132,18 @@ def test_the_schema_allows_a_number_and_a_text_and_tells_the_unit():
     assert text["type"] == "string"
     assert "[m]" in number["description"]
     assert "'1 m'" in text["description"]
+
+
+class Doubled(Frozen):
+    length: Length
+
+    @cached_property
+    def twice(self) -> float:
+        return 2 * self.length
+
+
+def test_a_copy_forgets_what_followed_from_the_old_values():
+    one = Doubled(length=1)
+    assert one.twice == 2
+    assert one.model_copy(update={"length": 3.0}).twice == 6
+    assert one.twice == 2
