@@ -27,7 +27,7 @@ from .state import State
 
 Array = npt.NDArray[np.float64]
 Result = TypeVar("Result")
-_SAMPLES = 161  # of the characteristic function
+_SAMPLES = 129  # of the characteristic function
 MOST_MODES = 12
 """Bending modes on the page; more are for the command line."""
 

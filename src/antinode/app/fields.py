@@ -50,7 +50,7 @@ class Field:
         self._text.on("keydown.enter", self._typed)
         self._text.on("blur", self._typed)
         self._slider.on_value_change(self._slid)
-        self._slider.on("change", session.history.end_gesture, [])
+        self._slider.on("change", session.release, [])
 
     def _of(self, value: float) -> float:
         return float(f"{self.unit.of(value):.6g}")
@@ -93,6 +93,8 @@ class Field:
 
     def complain(self, sentence: str) -> None:
         """Mark the field as wrong, or as right again."""
+        if self._message.text == sentence:
+            return
         self._message.text = sentence
         self._message.visible = bool(sentence)
         self._box.classes(add="an-wrong" if sentence else "", remove="" if sentence else "an-wrong")
@@ -143,9 +145,9 @@ class Fields:
 
     def _swap(self, path: str) -> None:
         """Give depth in place of the cavitation number, or the other way; nothing else changes."""
-        case = self._session.state.problem
-        if isinstance(case, Case):
-            self._session.change(swapped_cavitation(case, path))
+        picture = self._session.picture
+        if picture is not None and picture.case is not None:
+            self._session.change(swapped_cavitation(picture.case, path))
 
     def complain(self, path: str, sentence: str) -> None:
         """Say what is wrong at its field, or below all of them."""

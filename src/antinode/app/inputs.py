@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import Any, NamedTuple, get_args
 
 from pydantic import BaseModel
@@ -55,10 +56,56 @@ def sliders(problem: Problem, original: Problem) -> tuple[Input, ...]:
         With the present values, and as it was opened.
     """
     paths = _vehicle_paths(problem) if isinstance(problem, Case) else _beam_paths(problem)
-    before = {item.path: item for item in numbers(original)}
-    now = {item.path: item for item in numbers(problem)}
-    chosen = [now[path] for path in paths if path in now]
-    return tuple(_with_range(item, before.get(item.path, item), problem) for item in chosen)
+    chosen = [find_input(problem, original, path) for path in paths]
+    return tuple(item for item in chosen if item is not None)
+
+
+def find_input(problem: Problem, original: Problem, path: str) -> Input | None:
+    """Return an input with its present value and the range of its slider; None without a value."""
+    value = _value(problem, path)
+    if value is None:
+        return None
+    before = _value(original, path)
+    label, unit = _place(type(problem), path)
+    item = Input(path, label, unit, value, value, value)
+    return _with_range(item, item._replace(value=value if before is None else before), problem)
+
+
+def _value(problem: Problem, path: str) -> float | None:
+    """Return the number that a path leads to, None where there is none."""
+    node: Any = problem
+    for key in path.split("."):
+        if isinstance(node, tuple):
+            node = node[int(key)] if key.isdigit() and int(key) < len(node) else None
+        else:
+            node = getattr(node, "table" if key == "beam" else key, None)
+    return float(node) if isinstance(node, float) and math.isfinite(node) else None
+
+
+@lru_cache(maxsize=1000)
+def _place(model: type[BaseModel], path: str) -> tuple[str, str]:
+    """Return the label and the SI unit of a number by its path."""
+    keys, unit = path.split("."), ""
+    here: Any = model
+    for key in keys:
+        inner = _model_in(here)
+        if inner is None or key.isdigit():
+            continue
+        fields = {field.alias or name: field for name, field in inner.model_fields.items()}
+        if key not in fields:
+            break
+        marks = [*fields[key].metadata, *_marks(fields[key].annotation)]
+        unit = next((mark.symbol for mark in marks if isinstance(mark, Unit)), "")
+        here = fields[key].annotation
+    return _label(tuple(keys)), unit
+
+
+def _model_in(annotation: Any) -> type[BaseModel] | None:
+    """Return the first model inside an annotation such as ``tuple[FinSet, ...]``."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    found = (_model_in(a) for a in get_args(annotation) if not isinstance(a, str))
+    return next((model for model in found if model is not None), None)
 
 
 def _vehicle_paths(case: Case) -> list[str]:
@@ -82,22 +129,22 @@ def _beam_paths(file: BeamFile) -> list[str]:
 
 def numbers(problem: Problem) -> tuple[Input, ...]:
     """Return every single number of a problem that can be moved, tables of stations aside."""
-    found = (_with_range(item, item, problem) for item in _walk(problem, (), ""))
     skipped = ("solve.", "vehicle.stations", "beam.stations", "vehicle.masses", "beam.masses")
-    return tuple(item for item in found if not item.path.startswith(skipped))
+    paths = (path for path in _walk(problem, ()) if not path.startswith(skipped))
+    found = (find_input(problem, problem, path) for path in paths)
+    return tuple(item for item in found if item is not None)
 
 
-def _walk(node: Any, keys: tuple[str, ...], unit: str) -> Iterator[Input]:
+def _walk(node: Any, keys: tuple[str, ...]) -> Iterator[str]:
+    """Yield the paths of all numbers."""
     if isinstance(node, BaseModel):
         for name, field in type(node).model_fields.items():
-            marks = [*field.metadata, *_marks(field.annotation)]
-            inner = next((m.symbol for m in marks if isinstance(m, Unit)), None)
-            yield from _walk(getattr(node, name), (*keys, field.alias or name), inner or "")
+            yield from _walk(getattr(node, name), (*keys, field.alias or name))
     elif isinstance(node, tuple):
         for k, entry in enumerate(node):
-            yield from _walk(entry, (*keys, str(k)), unit)
+            yield from _walk(entry, (*keys, str(k)))
     elif isinstance(node, float) and math.isfinite(node):
-        yield Input(".".join(keys), _label(keys), unit, node, node, node)
+        yield ".".join(keys)
 
 
 def _marks(annotation: Any) -> Iterator[Any]:
@@ -110,10 +157,20 @@ def _marks(annotation: Any) -> Iterator[Any]:
             yield from _marks(argument)
 
 
+_WORDS = {
+    "point_masses": "mass",
+    "springs": "spring",
+    "joints": "joint",
+    "point_forces": "force",
+    "roll_angles": "roll angle",
+}
+
+
 def _label(keys: tuple[str, ...]) -> str:
     """Write a path in words: ``vehicle.fins.0.tip_radius`` is "fins 1: tip radius"."""
-    words = [str(int(k) + 1) if k.isdigit() else k.replace("_", " ") for k in keys]
+    words = [str(int(k) + 1) if k.isdigit() else _WORDS.get(k, k.replace("_", " ")) for k in keys]
     outer = words[1:-1] if words[0] in ("vehicle", "beam", "condition") else words[:-1]
+    outer = [word for word in outer if word != "loads"]
     text = words[-1]
     return f"{' '.join(outer)}: {text}" if outer else text
 
@@ -138,6 +195,9 @@ def _range(item: Input, problem: Problem) -> tuple[float, float]:
         return _RANGES[name]
     if isinstance(problem, Case) and name.endswith("position"):
         return 0.0, problem.vehicle.length
+    if name.endswith(".x") and not isinstance(problem, Case):
+        x = problem.table.stations.x
+        return float(x[0]), float(x[-1])
     if name == "condition.depth":
         return 0.0, max(50.0, _nice(2 * size))
     if name == "condition.thrust":
@@ -148,6 +208,8 @@ def _range(item: Input, problem: Problem) -> tuple[float, float]:
         return item.value - math.radians(10), item.value + math.radians(10)
     if size == 0:
         return (0.0, 1.0) if name != "beam.loads.gravity" else (-9.80665, 9.80665)
+    if name.startswith("beam.loads"):
+        return min(0.0, 2 * item.value), max(0.0, 2 * item.value)
     ends = sorted((item.value / 2, item.value * 1.5))
     return ends[0], ends[1]
 

@@ -19,7 +19,7 @@ from antinode.examples import EXAMPLES
 from .display import SYSTEMS
 from .elements import Board, Picture, style_sheet
 from .fields import Fields
-from .inputs import Input, numbers
+from .inputs import Input, numbers, sliders
 from .save import case_toml, result_file
 from .session import Session
 from .source import MOST_BYTES, read_dropped, read_example
@@ -81,6 +81,11 @@ class Page:
         with self._client:
             self._fields.complain(path, sentence)
             self._undo.set_enabled(self.session.history.can_undo)
+
+    def rebuild(self) -> None:
+        """Build head, side and pictures anew for another file."""
+        with self._client:
+            self._build()
 
     # --- building ---------------------------------------------------------------------------
 
@@ -240,12 +245,12 @@ class Page:
         button.props(f'aria-pressed="{state}" aria-label="mode {number}"')
 
     def _curve_select(self) -> None:
-        every = {item.path: item.label for item in numbers(self.session.state.original)}
-        chosen = self.session.state.view.curve
-        default = next((p for p in every if p == "condition.thrust"), next(iter(every), None))
+        state = self.session.state
+        every = {item.path: item.label for item in numbers(state.original)}
+        item = self.session.curve_input(state, sliders(state.original, state.original))
         ui.select(
             every,
-            value=chosen if chosen in every else default,
+            value=item.path if item and item.path in every else None,
             on_change=lambda e: self.session.look(curve=str(e.value or "")),
         ).props('dense borderless options-dense aria-label="Input of the curve"').classes(
             "an-pick an-wide"
@@ -311,7 +316,7 @@ class Page:
             self._note(str(error))
             return
         self.session.open(file)
-        self._build()
+        self.rebuild()
 
     def _save_case(self) -> None:
         try:

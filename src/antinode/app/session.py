@@ -17,7 +17,7 @@ from antinode.errors import AntinodeError, InputError
 
 from .compute import Picture, full_picture, quick_picture
 from .curve import Curve, curve_key, grow_curve
-from .inputs import Input, numbers, sliders
+from .inputs import Input, find_input, sliders
 from .panels.characteristic import characteristic_data
 from .panels.curve import cursor_data, curve_data
 from .panels.forces import forces_data
@@ -46,6 +46,9 @@ class Face(Protocol):
     def complain(self, path: str, sentence: str) -> None:
         """Mark what is wrong at its field; an empty sentence takes the mark away."""
 
+    def rebuild(self) -> None:
+        """Build the page anew for another file."""
+
 
 class Session:
     """The state of one open page and the work on it.
@@ -65,7 +68,7 @@ class Session:
         self._sent: dict[str, str] = {}
         self._version = 0
         self._sequence = 0
-        self._moved = ""
+        self._moved = self._dragged = ""
         self._task: asyncio.Task[None] | None = None
         self._curve: Curve | None = None
 
@@ -78,7 +81,7 @@ class Session:
 
     def change(self, changes: Mapping[str, Value], moving: str = "") -> None:
         """Take new values; `moving` names the slider that is being dragged."""
-        self._moved = next(iter(changes), "")
+        self._moved, self._dragged = next(iter(changes), ""), moving
         self.history.put(self.state.changed(changes), gesture=moving)
         self._start()
 
@@ -96,8 +99,13 @@ class Session:
 
     def undo(self) -> None:
         """Take the last change back."""
+        before = self.state.file
         self.history.undo()
+        self._dragged = ""
         self._start()
+        if self.state.file is not before:
+            self.forget()
+            self._face.rebuild()
 
     def pin(self) -> None:
         """Pin the present frequencies as the baseline, or take the pin out."""
@@ -137,6 +145,11 @@ class Session:
         await asyncio.sleep(_SETTLED)
         return True
 
+    def release(self) -> None:
+        """Take note that a slider was let go: the next move is a step of its own."""
+        self._dragged = ""
+        self.history.end_gesture()
+
     async def _full(self, state: State) -> bool:
         done = await self._show(state, full_picture, "")
         self._send({}, address=self._address(state))
@@ -155,7 +168,7 @@ class Session:
         self.picture, self.inputs, self.error = picture, inputs, ""
         self._face.complain("", "")
         self._send(data, stale=False)
-        self._face.refresh(inputs, self._moved)
+        self._face.refresh(inputs, self._dragged)
         return True
 
     def _fail(self, sentence: str) -> None:
@@ -187,8 +200,8 @@ class Session:
     def curve_input(self, state: State, inputs: tuple[Input, ...]) -> Input | None:
         """Return the input that the curve runs over."""
         chosen = state.view.curve or next((i.path for i in inputs if "thrust" in i.path), "")
-        every = {**{i.path: i for i in numbers(state.problem)}, **{i.path: i for i in inputs}}
-        return every.get(chosen, inputs[0] if inputs else None)
+        found = find_input(state.problem, state.original, chosen)
+        return found or (inputs[0] if inputs else None)
 
     def _curve_patch(self, state: State, item: Input, picture: Picture) -> dict[str, Any]:
         omega2 = picture.quick.omega2

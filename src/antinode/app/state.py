@@ -286,6 +286,9 @@ class History:
 
     def put(self, state: State, gesture: str = "") -> None:
         """Take a new state; states of the same `gesture` in a row count as one step."""
+        if (state.file, state.changes) == (self.state.file, self.state.changes):
+            self.state = state
+            return
         if not gesture or gesture != self._gesture:
             self._before = [*self._before[-self._MOST :], self.state]
         self._gesture = gesture

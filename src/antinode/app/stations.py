@@ -86,7 +86,9 @@ class StationsDialog:
                 "One row a station, x from the nose aft. Change a cell and press Enter; every "
                 "change is computed at once and can be undone."
             ).classes("an-hint")
-            self._grid = ui.aggrid({"columnDefs": [], "rowData": []}).classes("an-grid")
+            self._grid = ui.aggrid(
+                {"columnDefs": [], "rowData": []}, auto_size_columns=False
+            ).classes("an-grid")
             self._grid.on("cellValueChanged", self._edited, ["data", "rowIndex"])
             self._message = ui.label("").classes("an-message").props('role="alert"')
             with ui.row().classes("an-buttons"):
@@ -111,6 +113,7 @@ class StationsDialog:
         self._grid.options["rowData"] = self._rows
         self._grid.options["rowSelection"] = {"mode": "singleRow", "checkboxes": False}
         self._grid.options["stopEditingWhenCellsLoseFocus"] = True
+        self._grid.update()
         self._say("")
         self._dialog.open()
 
@@ -160,6 +163,7 @@ class StationsDialog:
         for k, row in enumerate(self._rows, 1):
             row["row"] = k
         self._grid.options["rowData"] = self._rows
+        self._grid.update()
         self._take()
 
     def _take(self) -> None:

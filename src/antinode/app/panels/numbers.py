@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 
 import numpy as np
@@ -10,8 +9,15 @@ import numpy as np
 
 def short_list(values: Iterable[float] | np.ndarray, digits: int = 4) -> list[float | None]:
     """Return numbers with so many digits; None where there is none."""
-    flat = np.asarray(values, dtype=float).ravel().tolist()
-    return [float(f"{v:.{digits}g}") if math.isfinite(v) else None for v in flat]
+    flat = np.asarray(values, dtype=float).ravel()
+    known = np.isfinite(flat)
+    size = np.abs(np.where(known & (flat != 0), flat, 1.0))
+    places = digits - 1 - np.floor(np.log10(np.clip(size, 1e-250, 1e250)))
+    up, down = 10.0 ** np.maximum(places, 0), 10.0 ** np.maximum(-places, 0)
+    rounded = np.round(np.where(known, flat, 0.0) * up / down) * down / up
+    if known.all():
+        return list(rounded.tolist())
+    return [v if k else None for v, k in zip(rounded.tolist(), known.tolist(), strict=True)]
 
 
 def pairs(x: np.ndarray, y: np.ndarray, digits: int = 4) -> list[list[float | None]]:

@@ -104,8 +104,12 @@ export function body(element) {
     paint();
   }
 
+  let due = 0;
   function paint() {
-    renderer.render(scene, camera);
+    due ||= requestAnimationFrame(() => {
+      due = 0;
+      renderer.render(scene, camera);
+    });
   }
 
   function resize() {

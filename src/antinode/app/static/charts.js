@@ -21,7 +21,7 @@ function axis(t, name, more = {}) {
 function xAxis(t, name, more = {}) {
   return axis(t, name, {
     nameLocation: "middle",
-    nameGap: 20,
+    nameGap: 23,
     axisLine: { show: true, onZero: false, lineStyle: { color: t.line } },
     splitLine: { show: false },
     ...more,
@@ -76,7 +76,7 @@ export function forces(element) {
   const names = (data) => data.curves.map((c) => `${c.name}  ${c.title}`);
   const layout = (data) => {
     const count = data.curves.length;
-    const room = (element.clientHeight - 38) / count;
+    const room = (element.clientHeight - 42) / count;
     return data.curves.map((_, k) => ({ left: 58, right: 12, top: 20 + k * room, height: Math.max(20, room - 24) }));
   };
   const series = (data, t) =>
@@ -105,7 +105,7 @@ export function forces(element) {
         ...ends,
         gridIndex: k,
         axisLabel: { ...label(t), show: lowest, formatter: rounded },
-        nameGap: 18,
+        nameGap: 22,
       });
     }),
     yAxis: data.curves.map((c, k) =>
@@ -156,16 +156,17 @@ export function modes(element) {
       data: wave(c.points, k),
     }));
   const full = (data, t) => ({
-    grid: { left: 42, right: 12, top: 26, bottom: 34 },
+    grid: { left: 42, right: 12, top: 26, bottom: 36 },
     legend: {
       top: 0,
-      left: 38,
+      left: 34,
+      icon: "roundRect",
       itemWidth: 14,
-      itemHeight: 8,
+      itemHeight: 3,
       itemGap: 10,
       textStyle: { color: t.muted, fontSize: 11, fontFamily: FONT },
       selectedMode: false,
-      formatter: (name) => `${name}: ${data.curves.find((c) => `${c.number}` === name)?.label ?? ""}`,
+      formatter: (name) => (data.curves.length > 3 ? name : `${name}: ${data.curves.find((c) => `${c.number}` === name)?.label ?? ""}`),
     },
     xAxis: xAxis(t, `x from the ${data.origin} [${data.unit}]`, {
       min: data.curves[0]?.points[0][0] ?? 0,
@@ -207,7 +208,7 @@ export function modes(element) {
 
 export function characteristic(element) {
   const full = (data, t) => ({
-    grid: { left: 26, right: 14, top: 10, bottom: 34 },
+    grid: { left: 26, right: 14, top: 10, bottom: 36 },
     xAxis: xAxis(t, "frequency [Hz]", { min: 0, max: data.points[data.points.length - 1][0], axisLabel: { ...label(t), formatter: rounded, showMaxLabel: false } }),
     yAxis: axis(t, "", { min: -1.08, max: 1.08, interval: 1.08, splitLine: { show: false }, axisLabel: { ...label(t), formatter: (v) => (Math.abs(v) < 0.1 ? "0" : "") } }),
     tooltip: tooltip(t, (points) => `${rounded(points[0].value[0])} Hz`),
@@ -230,7 +231,12 @@ export function characteristic(element) {
       },
     ],
   });
-  return chart(element, full);
+  const quick = (data, t) => ({
+    xAxis: { max: data.points[data.points.length - 1][0] },
+    series: full(data, t).series.map((s) => ({ id: s.id, data: s.data, tooltip: s.tooltip })),
+  });
+  const it = chart(element, full, quick);
+  return { ...it, show: (data) => it.show({ ...data, signature: "one" }) };
 }
 
 export function curve(element) {
@@ -265,7 +271,7 @@ export function curve(element) {
     },
   });
   const full = (data, t) => ({
-    grid: { left: 42, right: 16, top: 12, bottom: 34 },
+    grid: { left: 42, right: 16, top: 12, bottom: 36 },
     xAxis: xAxis(t, `${data.label}${data.unit ? ` [${data.unit}]` : ""}`, { min: data.low, max: data.high, axisLabel: { ...label(t), formatter: rounded } }),
     yAxis: axis(t, "", { min: 0, splitNumber: 4 }),
     tooltip: tooltip(t, (points) =>

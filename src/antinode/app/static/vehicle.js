@@ -15,7 +15,7 @@ export function vehicle(element) {
     const height = element.clientHeight;
     if (width < 50 || height < 50) return;
     const d = last;
-    const left = LONGEST + 34;
+    const left = LONGEST + 58;
     const right = LONGEST + 30;
     const tallest = Math.max(...d.cavity.top, ...d.cavity.bottom.map((v) => -v), ...d.fins.map((f) => Math.max(Math.abs(f[2]), Math.abs(f[3]))), ...d.body.map((p) => p[1]));
     const room = height / 2 - 16 - 14;
@@ -71,7 +71,7 @@ export function vehicle(element) {
         const aft = a.size > 0;
         if (a.x <= 0.02 * d.length) {
           arrow(X(0) - 4 - length, Y(0), X(0) - 4, Y(0));
-          place(4, Y(0) - 8, a.text, "start");
+          place(X(0) - 8, Y(0) - 8, a.text, "end");
         } else if (a.x >= 0.98 * d.length) {
           const nozzle = X(d.length) + 4;
           if (aft) arrow(nozzle, Y(0), nozzle + length, Y(0));

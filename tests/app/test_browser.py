@@ -1,0 +1,291 @@
+"""The page in a real browser: Chromium, on loopback."""
+
+import json
+import re
+import tomllib
+from urllib.parse import urlsplit
+
+import pytest
+
+from antinode import load_case, solve_modes
+from antinode.examples import write_example
+
+pytest.importorskip("nicegui", reason="nicegui is not installed (extra web)")
+
+from app_browser import Tab, serving
+
+SLIDERS = ("speed", "cavitation number", "cavitator angle", "thrust", "fin position", "burn")
+
+
+def keyboard(tab, label, key, times=1):
+    """Move a slider by keys."""
+    slider = tab.page.locator(f".an-slider[aria-label^='{label}'] .q-slider__track-container")
+    slider.focus()
+    for _ in range(times):
+        slider.press(key)
+
+
+def assert_clean(tab, address):
+    """Nothing was complained of, and nothing asked for beyond the server."""
+    assert tab.errors == []
+    here = urlsplit(address).netloc
+    outside = [u for u in tab.requests if urlsplit(u).netloc not in (here, "")]
+    assert outside == []
+    assert len(tab.requests) > 10
+
+
+def test_the_first_view_shows_the_starter(tab, address):
+    assert tab.frequency(1) == "3.24871"
+    assert tab.frequency(6) == "65.1186"
+    text = tab.page.locator(".an-at-vehicle").inner_html()
+    for force in ("cavitator drag 13 kN", "planing lift 8.22 kN", "thrust 50 kN", "weight"):
+        assert force in text
+    assert "rigid rotation is divergent" in tab.page.locator(".an-notes").inner_text()
+    assert_clean(tab, address)
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1920, 1080)])
+def test_nothing_overlaps_and_nothing_scrolls(chromium, address, width, height):
+    tab = Tab(chromium, address, width=width, height=height)
+    boxes = [b.bounding_box() for b in tab.page.locator(".an-card, .an-section").all()]
+    assert len(boxes) == 10
+    for k, a in enumerate(boxes):
+        assert a["x"] >= 0
+        assert a["y"] >= 0
+        assert a["x"] + a["width"] <= width
+        assert a["y"] + a["height"] <= height
+        for b in boxes[k + 1 :]:
+            apart = (
+                a["x"] + a["width"] <= b["x"]
+                or b["x"] + b["width"] <= a["x"]
+                or a["y"] + a["height"] <= b["y"]
+                or b["y"] + b["height"] <= a["y"]
+            )
+            assert apart, (a, b)
+    scroll = "document.documentElement.scrollHeight - window.innerHeight"
+    assert tab.page.evaluate(scroll) <= 0
+    fonts = tab.page.evaluate(
+        "[...new Set([...document.querySelectorAll('.an-app *:not(.q-icon)')]"
+        ".map(e => getComputedStyle(e).fontFamily.split(',')[0]))]"
+    )
+    assert fonts == ["Roboto"]
+    tab.page.close()
+
+
+@pytest.mark.parametrize("label", SLIDERS)
+def test_each_slider_moves_every_picture(tab, address, label):
+    tab.page.evaluate(
+        """() => {
+            window.seen = new Set();
+            for (const [name, view] of Object.entries(window.antinode.views)) {
+                const show = view.show;
+                view.show = (data) => { window.seen.add(name); show.call(view, data); };
+            }
+        }"""
+    )
+    before = tab.frequency(1)
+    keyboard(tab, label, "ArrowRight", 6)
+    tab.wait_for_change(before)
+    tab.settle()
+    seen = set(tab.page.evaluate("[...window.seen]"))
+    wanted = {"forces", "modes", "frequencies", "characteristic", "body", "curve", "vehicle"}
+    assert wanted <= seen
+    assert_clean(tab, address)
+
+
+def test_a_slider_by_the_mouse_and_the_link_it_leaves(tab, chromium, address):
+    track = tab.page.locator(".an-slider[aria-label^='thrust']").bounding_box()
+    before = tab.frequency(1)
+    y = track["y"] + track["height"] / 2
+    tab.page.mouse.move(track["x"] + track["width"] / 2, y)
+    tab.page.mouse.down()
+    for part in (0.6, 0.7, 0.8):
+        tab.page.mouse.move(track["x"] + part * track["width"], y)
+    tab.page.mouse.up()
+    tab.wait_for_change(before)
+    tab.page.wait_for_function("location.search.includes('thrust')")
+    tab.settle()
+    again = Tab(chromium, tab.page.url)
+    assert again.frequency(1) == tab.frequency(1)
+    again.page.close()
+    tab.page.get_by_role("button", name="Undo").click()
+    tab.page.wait_for_function("!location.search.includes('thrust')")
+    assert tab.frequency(1) == before
+
+
+def test_a_field_takes_units_and_says_what_is_wrong(tab, address):
+    before = tab.frequency(1)
+    tab.set_field("speed [m/s]", "360 km/h")
+    tab.wait_for_change(before)
+    tab.settle()
+    assert tab.frequency(1) == "3.19549"
+    field = tab.page.get_by_label("speed [m/s]").and_(tab.page.locator("input"))
+    tab.page.wait_for_function("document.querySelector('.an-input input').value === '100'")
+    tab.set_field("speed [m/s]", "50 kg")
+    message = tab.page.locator(".an-message:visible")
+    message.wait_for()
+    assert "condition.speed is '50 kg'; 'kg' is no unit of m/s" in message.inner_text()
+    assert field.get_attribute("aria-invalid") == "true"
+    assert "an-stale" in tab.page.locator(".an-main").get_attribute("class")
+    assert tab.frequency(1) == "3.19549"  # the last good result stays
+    tab.page.get_by_role("button", name="Undo").click()
+    tab.page.wait_for_selector(".an-main:not(.an-stale)")
+    message.wait_for(state="hidden")
+    assert_clean(tab, address)
+
+
+def test_dropped_files(tab, address, tmp_path):
+    write_example("paper", tmp_path / "paper")
+    write_example("tower", tmp_path / "tower")
+    bad = tmp_path / "bad.toml"
+    bad.write_text("[vehicle]\nname = 3\n", encoding="utf-8")
+    drop(tab, [bad])
+    toast = tab.page.locator(".an-toast")
+    toast.wait_for()
+    assert "bad.toml: vehicle.name is 3" in toast.inner_text()
+    assert tab.frequency(1) == "3.24871"  # nothing has changed
+    toast.get_by_text("Close").click()
+    toast.wait_for(state="detached")
+    drop(tab, [tmp_path / "paper" / "case.toml"])
+    tab.page.get_by_text("was not dropped with it").wait_for()
+    toast.get_by_text("Close").click()
+    toast.wait_for(state="detached")
+    drop(tab, sorted((tmp_path / "paper").iterdir()))
+    tab.page.get_by_text("paper vehicle, reconstructed").wait_for()
+    tab.settle()
+    exact = solve_modes(load_case(tmp_path / "paper" / "case.toml")).mode("bending", 1)
+    assert float(tab.frequency(1)) == pytest.approx(exact.frequency_hz, rel=1e-5)
+    drop(tab, [tmp_path / "tower" / "beam.toml"])
+    tab.page.get_by_text("tower with a top mass").wait_for()
+    tab.settle()
+    assert tab.page.locator(".an-at-vehicle").count() == 0
+    assert tab.frequency(1).startswith("0.338")
+    assert_clean(tab, address)
+
+
+def drop(tab, paths):
+    """Drop files on the page."""
+    files = [{"name": p.name, "text": p.read_text(encoding="utf-8")} for p in paths]
+    tab.page.evaluate(
+        """(files) => {
+            const data = new DataTransfer();
+            for (const f of files) data.items.add(new File([f.text], f.name));
+            for (const type of ['dragenter', 'dragover', 'drop'])
+                window.dispatchEvent(new DragEvent(type, {dataTransfer: data, cancelable: true}));
+        }""",
+        files,
+    )
+
+
+def test_two_sessions_do_not_touch_each_other(chromium, address):
+    one, two = Tab(chromium, address), Tab(chromium, address)
+    keyboard(one, "thrust", "ArrowRight", 20)
+    keyboard(two, "thrust", "ArrowLeft", 20)
+    for tab in (one, two):
+        tab.wait_for_change("3.24871")
+        tab.page.wait_for_function("location.search.includes('thrust')")
+        tab.settle()
+    assert float(one.frequency(1)) < 3.24871 < float(two.frequency(1))
+    for tab in (one, two):
+        assert_clean(tab, address)
+        tab.page.close()
+
+
+def test_modes_units_baseline_and_band(tab, address):
+    tab.page.get_by_role("button", name="mode 4").click()
+    tab.page.get_by_label("Let the modes vibrate").click()
+    tab.page.get_by_role("button", name="Longitudinal").click()
+    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)').innerText === '56.557'")
+    tab.page.get_by_role("button", name="Bending").click()
+    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)').innerText === '3.24871'")
+    tab.page.get_by_label("Pin the frequencies").click()
+    tab.page.wait_for_selector(".an-pinned")
+    tab.page.get_by_label("from", exact=True).fill("18")
+    tab.page.get_by_label("to", exact=True).fill("25")
+    tab.page.get_by_label("to", exact=True).press("Enter")
+    tab.page.get_by_text("mode 3 in the equipment band").wait_for()
+    tab.page.get_by_label("Units").click()
+    tab.page.get_by_role("option", name="US").click()
+    tab.page.get_by_label("speed [ft/s]").and_(tab.page.locator("input")).wait_for()
+    assert tab.page.get_by_label("speed [ft/s]").and_(tab.page.locator("input")).input_value() == (
+        "262.467"
+    )
+    tab.page.get_by_label("Dark or light").click()
+    tab.page.wait_for_selector("body.body--dark")
+    assert_clean(tab, address)
+
+
+def test_the_table_of_stations(tab, address):
+    tab.page.get_by_role("button", name="Stations").click()
+    cell = tab.page.locator(".ag-row[row-index='9'] [col-id='bending_stiffness']")
+    cell.dblclick()
+    cell.locator("input").fill("260")
+    before = tab.frequency(1)
+    cell.locator("input").press("Enter")
+    tab.wait_for_change(before)
+    cell.dblclick()
+    cell.locator("input").fill("-1")
+    cell.locator("input").press("Enter")
+    tab.page.get_by_text("bending_stiffness, row 10: received -1000").first.wait_for()
+    tab.page.get_by_role("button", name="Close").click()
+    tab.page.get_by_role("button", name="Undo").click()
+    tab.page.get_by_role("button", name="Undo").click()
+    tab.page.wait_for_selector(".an-main:not(.an-stale)")
+    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)').innerText === '3.24871'")
+    assert_clean(tab, address)
+
+
+def test_downloads(tab, address):
+    for item, name in (
+        ("The case, as TOML", "case.toml"),
+        ("Results, .csv", "modes.csv"),
+        ("Results, .json", "modes.json"),
+        ("Results, .nc", "modes.nc"),
+    ):
+        tab.page.get_by_role("button", name="Save").click()
+        with tab.page.expect_download() as waiting:
+            tab.page.get_by_text(item).click()
+        assert waiting.value.suggested_filename == name
+        content = waiting.value.path().read_bytes()
+        if name == "case.toml":
+            assert tomllib.loads(content.decode())["condition"]["speed"] == "80 m/s"
+        if name == "modes.json":
+            assert len(json.loads(content)["modes"]) == 15
+    assert_clean(tab, address)
+
+
+def test_everything_can_be_reached_by_keyboard_and_has_a_name(tab):
+    unnamed = tab.page.evaluate(
+        """() => [...document.querySelectorAll(
+                '.an-app button, .an-app input, .an-app [role=slider], .an-picture')]
+            .filter(e => e.type !== 'file' && !e.closest('[aria-hidden=true]'))
+            .filter(e => !(e.getAttribute('aria-label') || e.innerText.trim()
+                || e.closest('[aria-label]') || e.labels?.length))
+            .map(e => e.outerHTML.slice(0, 120))"""
+    )
+    assert unnamed == []
+    tab.page.locator("body").press("Tab")
+    for _ in range(12):
+        tab.page.keyboard.press("Tab")
+    assert tab.page.evaluate("document.activeElement !== document.body")
+
+
+def test_the_server_outlives_every_input(chromium):
+    with serving() as (address, process):
+        for query in ("?set=%7B", "?case=xyz", "?units=3", "?set=" + "a" * 20_000):
+            page = chromium.new_page()
+            page.goto(address + query)
+            page.get_by_text("the link is damaged").wait_for()
+            page.close()
+        tab = Tab(chromium, address)
+        for value in ("1e300", "nan", "-5", "", "__import__('os')", "9" * 60, "1e-300"):
+            tab.set_field("speed [m/s]", value)
+            tab.set_field("thrust [kN]", value)
+        tab.page.locator(".an-message:visible").first.wait_for()
+        tab.set_field("speed [m/s]", "81")
+        tab.set_field("thrust [kN]", "51")
+        tab.page.wait_for_selector(".an-main:not(.an-stale)")
+        tab.settle()
+        assert re.fullmatch(r"3\.\d+", tab.frequency(1))
+        assert tab.errors == []
+        assert process.poll() is None

@@ -1,0 +1,101 @@
+"""A server of the page in a process of its own, and a page in a browser, for tests."""
+
+import os
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+from urllib.parse import urlsplit
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+FLAGS = (
+    "--no-sandbox",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+)
+
+
+def wait_for(url, most=30.0):
+    """Wait until a server answers [s]."""
+    parts, end = urlsplit(url), time.monotonic() + most
+    while time.monotonic() < end:
+        try:
+            socket.create_connection((parts.hostname, parts.port), 1.0).close()
+        except OSError:
+            time.sleep(0.1)
+        else:
+            return
+    raise AssertionError(f"no answer from {url}")
+
+
+@contextmanager
+def serving(*arguments):
+    """Run serve.py; yield the address of its page."""
+    script = Path(__file__).parent / "app" / "serve.py"
+    process = subprocess.Popen(
+        [sys.executable, str(script), *arguments],
+        stderr=subprocess.PIPE,
+        text=True,
+        env={k: v for k, v in os.environ.items() if not k.startswith(("PYTEST", "NICEGUI"))},
+    )
+    try:
+        line = process.stderr.readline()
+        found = re.search(r"http://\S+", line)
+        assert found, line + process.stderr.read()
+        wait_for(found[0])
+        yield found[0], process
+    finally:
+        process.kill()
+        process.wait(10)
+        process.stderr.close()
+
+
+class Tab:
+    """A page in the browser with all that it complained of and asked for."""
+
+    def __init__(self, browser, url, *, width=1280, height=800):
+        self.page = browser.new_page(viewport={"width": width, "height": height})
+        self.errors, self.requests = [], []
+        self.page.on("console", lambda m: self.errors.append(m.text) if m.type == "error" else None)
+        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.on("websocket", lambda socket: self.requests.append(socket.url))
+        self.page.set_default_timeout(30_000)
+        self.open(url)
+
+    def open(self, url):
+        """Open a page and wait until its full result is shown."""
+        self.page.goto(url)
+        self.settle()
+
+    def settle(self):
+        """Wait until a full result stands in the table."""
+        self.page.wait_for_selector(".an-table tbody tr")
+        self.page.wait_for_selector(".an-table:not(.an-quick)")
+
+    def frequency(self, mode=1):
+        """Return the text of a mode's frequency."""
+        return self.page.locator(".an-table tbody tr").nth(mode - 1).locator(".an-hz").inner_text()
+
+    def wait_for_change(self, before, mode=1):
+        """Wait until a mode's frequency is another one."""
+        script = (
+            "([row, old]) => document.querySelectorAll('.an-table tbody .an-hz')[row]"
+            "?.innerText !== old"
+        )
+        self.page.wait_for_function(script, arg=[mode - 1, before])
+
+    def set_field(self, label, text):
+        """Type into a field."""
+        field = self.page.get_by_label(label).and_(self.page.locator("input"))
+        field.fill(text)
+        field.press("Enter")
