@@ -19,6 +19,7 @@ from .riccati.chain import Integers
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _POINTS, _WEIGHTS = (_POINTS + 1) / 2, _WEIGHTS / 2
+_STEEPEST = 4.0  # ratio of EA across one piece of an integral
 
 
 @dataclass(frozen=True)
@@ -114,22 +115,11 @@ def _steps(beam: Beam, forces: Array, held: Array, body: float) -> Array:
 
 
 def _shared(beam: Beam, forces: Array, held: Array, supports: Integers, body: float) -> Array:
-    """Return the reactions of several axial supports (force method: their displacements agree)."""
-    EA = beam.axial_stiffness
-    if EA is None:
-        raise InputError(
-            "axial_stiffness is missing: a beam held axially at more than one place shares its "
-            "load by EA [N]"
-        )
-    k = np.arange(len(beam.x) - 1)[:, None]
-    h = np.diff(beam.x)[:, None] * _WEIGHTS
-    compliance = h / beam.at(EA, k, _POINTS)
-    joints = beam.axial_joint_compliance
-    bare = np.cumsum(forces)[:-1]
-    carried = body * beam.mass_left_of(k, _POINTS) + bare[:, None]
-    after = np.append(bare + body * beam.mass_left_of(k[:, 0], np.ones(len(bare))), 0.0)
-    drop = np.sum(compliance * carried, axis=1) + (joints * after)[1:]
-    flexibility = np.sum(compliance, axis=1) + joints[1:]
+    """Return the reactions of several axial supports (force method: their displacements agree).
+
+    What stands on a joint's station, reactions included, stands on the joint's left.
+    """
+    flexibility, drop = _flexibility(beam, forces, body)
     first, others = supports[0], supports[1:]
     n = len(supports)
     system, right = np.zeros((n, n)), np.zeros(n)
@@ -142,3 +132,47 @@ def _shared(beam: Beam, forces: Array, held: Array, supports: Integers, body: fl
         system[row, 1 + row] -= 1 / held[j]
     system[-1], right[-1] = 1.0, -(float(np.sum(forces)) + body * beam.mass)
     return np.asarray(np.linalg.solve(system, right))
+
+
+def _flexibility(beam: Beam, forces: Array, body: float) -> tuple[Array, Array]:
+    """Return what unit N, and N without reactions, shorten each interval by [m/N, m].
+
+    The joint at the left end of an interval belongs to it.
+    """
+    EA = beam.axial_stiffness
+    if EA is None:
+        raise InputError(
+            "axial_stiffness is missing: a beam held axially at more than one place shares its "
+            "load by EA [N]"
+        )
+    k, start, size = _pieces(EA)
+    at = start[:, None] + size[:, None] * _POINTS
+    h = (np.diff(beam.x)[k] * size)[:, None] * _WEIGHTS
+    bare = np.cumsum(forces)[:-1]
+    compliance = h / beam.at(EA, k[:, None], at)
+    carried = body * beam.mass_left_of(k[:, None], at) + bare[k, None]
+    joints = beam.axial_joint_compliance[:-1]
+    flexibility = np.bincount(k, np.sum(compliance, axis=1)) + joints
+    drop = np.bincount(k, np.sum(compliance * carried, axis=1))
+    return flexibility, drop + joints * (bare + body * beam.mass_left[:-1])
+
+
+def _pieces(EA: Array) -> tuple[Integers, Array, Array]:
+    """Cut intervals where EA is steep: return interval, and start and size as shares of it.
+
+    A piece of a linear EA has a ratio of `_STEEPEST` at most between its ends, so that 16 points
+    integrate 1/EA to rounding.
+    """
+    ratio = EA[:, 1] / EA[:, 0]
+    count = np.maximum(1, np.ceil(np.abs(np.log(ratio)) / np.log(_STEEPEST))).astype(int)
+    k = np.repeat(np.arange(len(EA)), count)
+    number = np.arange(len(k)) - np.repeat(np.cumsum(count) - count, count)
+
+    def bound(j: Array) -> Array:
+        """Return where EA has run through j of the pieces' equal ratios."""
+        share, steep = j / count[k], np.abs(ratio[k] - 1) > 1e-3
+        inverse = np.where(steep, ratio[k] - 1, 1.0)
+        return np.where(steep, (ratio[k] ** share - 1) / inverse, share)
+
+    start = bound(number)
+    return k, start, bound(number + 1) - start

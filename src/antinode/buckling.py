@@ -2,7 +2,8 @@
 
 With end forces of fixed direction a beam loses stability where an eigenvalue omega^2 passes through
 zero, so the same counts that certify frequencies find and bracket the critical load. Rigid motions
-are no buckling: a free beam's rotation diverges under any net compression and is left out.
+are no buckling: a free beam's rotation, which diverges under any net compression, is left out. In
+net tension nothing diverges at first, and any mode that does has buckled.
 """
 
 from __future__ import annotations
@@ -63,21 +64,22 @@ def buckling(beam: Beam, tolerance: float = 1e-6) -> Buckling | None:
     Returns
     -------
     Buckling or None
-        None where no factor buckles the beam: it is nowhere in compression.
+        None where no factor buckles the beam: nothing in it is in compression, nor carries the
+        weight of a mass above its support.
 
     Raises
     ------
     ComputationError
         If the tolerance is out of reach.
     """
-    allowed = int("rotation" in rigid_modes(beam, "bending"))
+    rotations = int("rotation" in rigid_modes(beam, "bending"))
     refinement = 1
-    found = _critical(beam.chain("bending", refinement), allowed)
+    found = _critical(beam.chain("bending", refinement), rotations)
     if found is None or not np.any(beam.varies("bending")):
         return None if found is None else _buckling(found, 0.0)
     while refinement < 256:
         refinement *= 2
-        coarse, found = found, _critical(beam.chain("bending", refinement), allowed)
+        coarse, found = found, _critical(beam.chain("bending", refinement), rotations)
         if found is None:
             break
         error = abs(sum(found) - sum(coarse)) / 2 / 8
@@ -91,21 +93,19 @@ def _buckling(bracket: tuple[float, float], error: float) -> Buckling:
     return Buckling((low + high) / 2, (low, high), float(error) + (high - low) / 2)
 
 
-def _critical(chain: Chain, allowed: int) -> tuple[float, float] | None:
-    """Bracket the load factor at which more than `allowed` eigenvalues are negative."""
-    largest = float(np.max(chain.axial_force / chain.stiffness))
-    if largest <= 0:
+def _critical(chain: Chain, rotations: int) -> tuple[float, float] | None:
+    """Bracket the load factor at which more eigenvalues are negative than rigid rotations."""
+    low, most = _range_of_factors(chain)
+    if not low < np.inf:
         return None
-    low = 1e-3 / (largest * chain.nodes[-1] ** 2)
-    most = _LARGEST / (largest * float(np.min(chain.length)) ** 2)
-    if not (np.isfinite(low) and np.isfinite(most) and low > 0):
-        raise OverflowError(f"the axial force is up to {largest:g} times the bending stiffness")
+    allowed = min(rotations, _diverge(chain, low))
     while _diverge(chain, low) > allowed:
         low /= 1e3
         if low == 0:
             raise ComputationError(
                 "the beam diverges under any share of its axial force; check the unit of its forces"
             )
+        allowed = min(rotations, _diverge(chain, low))
     high = low * _GROWTH
     while _diverge(chain, high) <= allowed:
         low, high = high, high * _GROWTH
@@ -115,6 +115,28 @@ def _critical(chain: Chain, allowed: int) -> tuple[float, float] | None:
         middle = (low + high) / 2
         low, high = (low, middle) if _diverge(chain, middle) > allowed else (middle, high)
     return low, high
+
+
+def _range_of_factors(chain: Chain) -> tuple[float, float]:
+    """Return a factor below all that buckle, and one above; infinite if nothing can.
+
+    N/EI of the most compressed segment makes the scale, and the arm of a mass whose own weight
+    turns it over, against the stiffness of the softest segment.
+    """
+    L = float(chain.nodes[-1])
+    largest = float(np.max(chain.axial_force / chain.stiffness))
+    turning = max((-p.own_load * p.offset for p in chain.points), default=0.0)
+    if largest <= 0 and turning <= 0:
+        return np.inf, np.inf
+    low = np.inf if largest <= 0 else 1e-3 / (largest * L**2)
+    most = 0.0 if largest <= 0 else _LARGEST / (largest * float(np.min(chain.length)) ** 2)
+    if turning > 0:
+        low = min(low, 1e-3 * float(np.min(chain.stiffness)) / (turning * L))
+        stiffest = float(np.max(chain.stiffness)) / float(np.min(chain.length))
+        most = max(most, _LARGEST * stiffest / turning)
+    if not (np.isfinite(low) and np.isfinite(most) and low > 0):
+        raise OverflowError("the axial force is out of proportion to the bending stiffness")
+    return low, most
 
 
 def _diverge(chain: Chain, factor: float) -> int:

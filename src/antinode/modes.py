@@ -264,7 +264,8 @@ def _relative_error(chain: Chain, omega2: Array, error: Array) -> Array:
 def _is_noise(error: Array, before: Array, relative: Array) -> bool:
     """Tell whether estimates are so small, and fall so little, that rounding makes them."""
     common = min(len(error), len(before))
-    return bool(np.all(error[:common] > before[:common] / 4) and np.max(relative) < _NEAR_ZERO)
+    falls_little = np.any(before) and np.all(error[:common] > before[:common] / 4)
+    return bool(falls_little and np.max(relative) < _NEAR_ZERO)
 
 
 def _by_tmm(
@@ -514,6 +515,22 @@ def _compare_unloaded(beam: Beam, found: list[Mode], modes: int, tolerance: floa
     ]
 
 
+def _rotation_warning(beam: Beam) -> str:
+    """Say why the rotation of a body that may turn diverges."""
+    k = np.arange(len(beam.x) - 1)
+    ends = [beam.axial_force_at(k, np.full(len(k), t)) for t in (0.0, 0.5, 1.0)]
+    net = float(np.diff(beam.x) @ (ends[0] + 4 * ends[1] + ends[2])) / 6
+    if net > 0 or beam.attachments:
+        return (
+            "rigid rotation is divergent (omega^2 < 0), as for every free body in net compression "
+            "by forces of fixed direction; control of the attitude is outside this model"
+        )
+    return (
+        "the lowest mode, counted as rigid rotation, is divergent (omega^2 < 0): the body is in "
+        "net tension, but compressed in parts past their buckling; reduce the compression there"
+    )
+
+
 def _result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
     warnings = []
     divergent = [m.name for m in modes if m.kind == "divergent" and m.number]
@@ -523,10 +540,7 @@ def _result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
             "the motion grows instead of vibrating: reduce the compression or stiffen the beam"
         )
     if any(m.kind == "divergent" and not m.number for m in modes):
-        warnings.append(
-            "rigid rotation is divergent (omega^2 < 0), as for every free body in net compression "
-            "by forces of fixed direction; control of the attitude is outside this model"
-        )
+        warnings.append(_rotation_warning(beam))
     errors = [(m.name, m.model_error) for m in modes if m.model_error is not None]
     large = [name for name, error in errors if abs(error) > _MODEL_LIMIT]
     if large:

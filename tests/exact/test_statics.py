@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 from scipy.special import jv
 
 from antinode import Beam, Ends, InputError, solve_modes
@@ -173,3 +174,72 @@ def test_static_deflection_without_axial_force_is_the_integral_of_the_moment(tmp
     expected = case.loads.bending_moment(x)
     assert np.max(np.abs(moment - expected)) < 1e-3 * np.max(np.abs(expected))
     assert theta[0] == 0.0
+
+
+@pytest.mark.parametrize("compliance", [0.0, 1e-6, 1e-5, 1e-3])
+def test_a_joint_in_the_middle_leaves_gravity_symmetric(compliance):
+    bar = Beam.from_stations([0.0, 2.0], 10.0, 1e4, 1e6, ends=Ends("clamped", "clamped"))
+    bar = bar.with_attachments(Joint(1.0, rotational=1e-9, axial=compliance))
+    loaded = apply_loads(bar, AxialLoads(gravity=100.0))
+    np.testing.assert_allclose(N_at(loaded, np.array([0, 1, 2 - 1e-12])), [-1e3, 0, 1e3], atol=1e-6)
+
+
+def test_a_joint_off_the_middle_under_gravity():
+    """Fixed ends, u(L) = 0: N = 10 g x - R, so R (L/EA + f) = 10 g (L^2/(2 EA) + f x_j)."""
+    EA, L, f, x, weight = 1e6, 2.0, 1e-5, 0.5, 1e3
+    bar = Beam.from_stations([0.0, L], 10.0, 1e4, EA, ends=Ends("clamped", "clamped"))
+    loaded = apply_loads(bar.with_attachments(Joint(x, axial=f)), AxialLoads(gravity=weight / 10))
+    reaction = weight * (L**2 / (2 * EA) + f * x) / (L / EA + f)
+    assert N_at(loaded, np.array([0.0]))[0] == pytest.approx(-reaction, rel=1e-12)
+
+
+@pytest.mark.parametrize(("force", "left", "right"), [(0.5, -500, 0), (1.5, 0, 2e4 / 22)])
+def test_a_support_at_a_joint_stands_on_its_left(force, left, right):
+    bar = Beam.from_stations([0.0, 2.0], 10.0, 1e4, 1e6, ends=Ends("clamped", "clamped"))
+    bar = bar.with_attachments(Joint(1.0, axial=1e-5), Spring(1.0, axial=math.inf))
+    loaded = apply_loads(bar, AxialLoads(point_forces=(PointForce(force, 1000.0),)))
+    ends = N_at(loaded, np.array([0.0, 2 - 1e-12]))
+    # right of it 0.5/EA + f share the load with 0.5/EA: 10.5 to 0.5 of 11
+    np.testing.assert_allclose(ends, [left, right * 10.5 / 10], atol=1e-8)
+
+
+@pytest.mark.parametrize("ratio", [0.01, 0.3, 1 + 1e-5, 30.0, 1e3, 1e6])
+def test_a_steep_linear_EA_shares_by_its_logarithm(ratio):
+    a, L, F = 1e6 * ratio, 4.0, 30.0
+    bar = Beam.from_stations(
+        [0, L], 1.0, 10.0, [a, 1e6], interpolation="linear", ends=Ends("clamped", "clamped")
+    )
+    loaded = apply_loads(bar, AxialLoads(point_forces=(PointForce(1.0, F),)))
+    middle = a + (1e6 - a) / L
+    left, right = np.log(middle / a), np.log(1e6 / middle)
+    N = N_at(loaded, np.array([0.0, 3.0]))
+    exact = [-F * right / (left + right), F * left / (left + right)]
+    np.testing.assert_allclose(N, exact, rtol=1e-9 if abs(ratio - 1) < 1e-3 else 1e-12)
+
+
+def test_a_mass_above_its_support_buckles_a_beam_in_tension():
+    """A cantilever drawn by a weight P that stands 3 L back from its tip: 3 k L tanh(k L) = 1."""
+    beam = Beam.from_stations([0.0, 1.0], 1e-3, 1.0, ends=Ends("clamped", "free"))
+    beam = beam.with_attachments(PointMass(1.0, 1.0, offset=-3.0))
+    loaded = apply_loads(beam, AxialLoads(gravity=1.0))
+    k = brentq(lambda k: 3 * k * math.tanh(k) - 1, 0.1, 1)
+    light = beam.with_attachments()
+    assert solve_modes(loaded, 1).modes[0].kind == "divergent"
+    assert solve_modes(light, 1).modes[0].kind == "elastic"
+    # the beam's own 1e-3 of the weight draws too
+    assert buckling(loaded).load_factor == pytest.approx(k**2, rel=1e-3)
+    assert buckling(apply_loads(light, AxialLoads(gravity=-1.0))) is not None
+
+
+def test_a_free_beam_in_net_tension_buckles_where_its_compressed_middle_does():
+    N = np.repeat([[-2.0], [1.0], [-2.0]], 2, axis=1)
+    beam = replace(Beam.from_stations([0, 1, 2, 3], 1.0, 1.0), axial_force=N)
+    critical = buckling(beam).load_factor
+    signs = [
+        min(m.omega2 for m in solve_modes(replace(beam, axial_force=f * N), 2).modes)
+        for f in (critical * 0.999, critical * 1.001)
+    ]
+    assert signs[0] >= 0 > signs[1]
+    beyond = solve_modes(replace(beam, axial_force=2 * critical * N), 2)
+    assert any("compressed in parts" in text for text in beyond.warnings)
+    assert not any("net compression" in text for text in beyond.warnings)
