@@ -154,11 +154,11 @@ def test_close_modes_widen_the_stated_uncertainty():
         assert abs(peak.frequency_hz - hz) < max(3 * peak.sd_hz, 1e-3)
 
 
-def test_noise_alone_has_few_modes():
-    f = np.arange(1, 80, 0.05)
+def test_noise_alone_has_no_modes():
+    f = np.arange(1, 40, 0.1)
     rng = np.random.default_rng(3)
-    H = rng.normal(size=(len(f), 6)) + 1j * rng.normal(size=(len(f), 6))
-    assert len(find_modes(f, H)) <= 3
+    H = rng.normal(size=(len(f), 3)) + 1j * rng.normal(size=(len(f), 3))
+    assert find_modes(f, H) == ()
 
 
 @pytest.mark.parametrize("ending", ["toml", "csv", "json"])

@@ -25,9 +25,15 @@ PROMINENCE = 6.0
 """By how much a peak stands out of its surroundings, of the responses' summed squares [dB]."""
 FLOOR = 1e-6
 """Smallest relative standard deviation that is stated: files keep six digits."""
+WORST = 0.06, 0.4
+"""Largest share of the responses about a peak that a fit may leave: for each of them, and at most.
+
+Noise in one response alone looks like a mode more often than in many at once.
+"""
+SHARPEST = 0.2
+"""Least half-power width of a mode in spacings of lines: a sharper peak may be one bad line."""
 _LINES = 6  # on either side of a peak, at least
 _WIDTHS = 3.0  # half-power widths on either side
-_WORST = 0.5  # share of the response that a fit may leave
 _MOST_DAMPED = 0.3
 
 
@@ -95,7 +101,9 @@ def _fit_peak(f: Array, H: Complex, level: Array, at: int, bounds: tuple[int, in
             return None
         fits.append(_fit(f[part], H[part], float(f[at]), width * _spacing(f, at) / f[at] / 2))
     narrow, wide = fits
-    if not (f[0] < narrow.f < f[-1] and 0 < narrow.damping < _MOST_DAMPED and narrow.left < _WORST):
+    seen = 2 * narrow.damping * narrow.f > SHARPEST * _spacing(f, at)
+    inside = f[0] < narrow.f < f[-1] and narrow.damping < _MOST_DAMPED
+    if not (seen and inside and narrow.left < min(WORST[0] * H.shape[1], WORST[1])):
         return None
     sd = math.hypot(narrow.sd, narrow.f - wide.f, FLOOR * narrow.f)
     return Peak(narrow.f, sd, narrow.damping, narrow.residues)
