@@ -1,5 +1,6 @@
 """The images of the documents, made by antinode itself: python docs/make_images.py [NAME ...]."""
 
+import io
 import math
 import sys
 from pathlib import Path
@@ -10,16 +11,19 @@ import numpy as np
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
+from PIL import Image
 
-from antinode import Beam, Ends, load_beam, load_case, load_study, solve_modes, sweep
-from antinode.figures import PALETTE, plot_case, plot_modes, save
+from antinode import Beam, Ends, load_beam, load_case, load_study, sensitivity, solve_modes, sweep
+from antinode.figures import PALETTE, plot_case, plot_loads, plot_modes, save
+from antinode.plot_style import BODY, GREY, INK, WIDTH, styled
+from antinode.study.sensitivity_command import read_uncertain
+from antinode.study.sensitivity_command import tornado as plot_tornado
 from antinode.study.sweep_figures import plot_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 IMAGES = ROOT / "docs" / "images"
 EXAMPLES = ROOT / "src" / "antinode" / "examples"
 STARTER = EXAMPLES / "starter" / "case.toml"
-GREY = "#5A5A5A"
 
 
 def starter_modes() -> None:
@@ -51,10 +55,17 @@ def sweeps() -> None:
         save(plot_sweep(study, sweep(study)), IMAGES / f"{image}.png")
 
 
+def tornado() -> None:
+    """Draw the indices of the page on sensitivity."""
+    uncertain = ("thrust=3kN", "bending_stiffness=2%", "mass_per_length=2%")
+    study = read_uncertain(STARTER, (), uncertain)
+    save(plot_tornado(sensitivity(study, 1024)), IMAGES / "sensitivity_tornado.png")
+
+
 def speed_sweep() -> None:
     """Draw the first frequency of the starter vehicle over speed, as in the tutorial."""
     speeds = np.arange(60, 131, 10)
-    figure, axes = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
+    figure, axes = plt.subplots(figsize=(WIDTH, 3.4), layout="constrained")
     for thrust, colour in zip((50, 100), PALETTE, strict=False):
         first = []
         for speed in speeds:
@@ -64,9 +75,8 @@ def speed_sweep() -> None:
             first.append(solve_modes(case, 1, families=["bending"]).mode("bending", 1).frequency_hz)
         axes.plot(speeds, first, "o-", color=colour, label=f"thrust {thrust} kN")
     axes.set(xlabel="speed [m/s]", ylabel="first bending frequency [Hz]")
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(frameon=False)
-    figure.savefig(IMAGES / "speed_sweep.png", dpi=160)
+    axes.legend()
+    figure.savefig(IMAGES / "speed_sweep.png")
     plt.close(figure)
 
 
@@ -75,7 +85,7 @@ def literal_methods() -> None:
     sys.path.insert(0, str(ROOT))
     from validation.literal_methods import FUNCTIONS, MODES, relative_errors, uniform
 
-    figure, axes = plt.subplots(figsize=(7.0, 3.8), layout="constrained")
+    figure, axes = plt.subplots(figsize=(WIDTH, 3.8), layout="constrained")
     modes, floor = np.arange(1, MODES + 1), 5e-17
     markers = zip(FUNCTIONS.items(), (PALETTE[1], PALETTE[4], PALETTE[0]), "so^", strict=True)
     for (name, function), colour, marker in markers:
@@ -88,28 +98,27 @@ def literal_methods() -> None:
             axes.semilogy(lost, np.full(len(lost), 1.0), "x", color=colour, label=f"{name}: lost")
     growth = 1e-16 * np.exp((modes + 0.5) * math.pi)
     axes.semilogy(modes[growth < 3], growth[growth < 3], color=GREY, linewidth=0.8)
-    axes.annotate("1e-16 exp($\\lambda$L)", (7.4, 1e-5), ha="right", fontsize=8, color=GREY)
+    axes.annotate("1e-16 exp($\\lambda$L)", (7.4, 1e-5), ha="right", color=GREY)
     axes.set(
         xlabel="mode of a uniform free-free beam, 100 segments",
-        ylabel="relative error of the frequency",
+        ylabel="relative error of the frequency [-]",
         ylim=(3e-17, 6),
     )
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(frameon=False, fontsize=8, loc="center right", bbox_to_anchor=(1.0, 0.21))
-    figure.savefig(IMAGES / "literal_methods.png", dpi=160)
+    axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.21))
+    figure.savefig(IMAGES / "literal_methods.png")
     plt.close(figure)
 
 
 def conventions() -> None:
     """Draw the axis, the forces on a vehicle and the positive senses of N, Q and M."""
     figure, (top, bottom) = plt.subplots(
-        2, 1, figsize=(7.6, 4.8), layout="constrained", height_ratios=(1.25, 1)
+        2, 1, figsize=(WIDTH, 4.6), layout="constrained", height_ratios=(1.25, 1)
     )
     for axes in (top, bottom):
         axes.set_axis_off()
     _draw_vehicle(top)
     _draw_slice(bottom)
-    figure.savefig(IMAGES / "conventions.png", dpi=160)
+    figure.savefig(IMAGES / "conventions.png")
     plt.close(figure)
 
 
@@ -119,14 +128,14 @@ def _arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float], col
 
 
 def _text(axes: Axes, at: tuple[float, float], text: str, colour: str, ha: str = "center") -> None:
-    axes.text(*at, text, color=colour, ha=ha, va="center", fontsize=9)
+    axes.text(*at, text, color=colour, ha=ha, va="center")
 
 
 def _draw_vehicle(axes: Axes) -> None:
     blue, red, green = PALETTE[0], PALETTE[1], PALETTE[2]
     body = np.array([[0, 0.08], [1.5, 0.42], [6, 0.42], [6, -0.42], [1.5, -0.42], [0, -0.08]])
-    axes.fill(*body.T, color="#D5D9DE", zorder=1)
-    axes.plot([0, 0], [-0.22, 0.22], color="#111827", linewidth=3, zorder=2)
+    axes.fill(*body.T, color=BODY, zorder=1)
+    axes.plot([0, 0], [-0.22, 0.22], color=INK, linewidth=3, zorder=2)
     axes.plot([-1.4, 8.2], [0, 0], color=GREY, linewidth=0.7, linestyle=(0, (6, 3)), zorder=3)
     _arrow(axes, (7.3, 0), (8.3, 0), GREY)
     _text(axes, (8.5, 0), "x, aft", GREY, "left")
@@ -142,8 +151,8 @@ def _draw_vehicle(axes: Axes) -> None:
     _text(axes, (5.35, 1.1), "lift of a fin or of planing, up", blue, "left")
     _arrow(axes, (4.7, -0.65), (5.4, -0.65), red)
     _text(axes, (5.5, -0.68), "their drag, aft", red, "left")
-    _arrow(axes, (2.84, 0), (2.84, -0.95), "#6B7280")
-    _text(axes, (2.95, -0.85), "weight", "#6B7280", "left")
+    _arrow(axes, (2.84, 0), (2.84, -0.95), GREY)
+    _text(axes, (2.95, -0.85), "weight", GREY, "left")
     turn = {
         "arrowstyle": "-|>",
         "connectionstyle": "arc3,rad=-0.45",
@@ -157,7 +166,7 @@ def _draw_vehicle(axes: Axes) -> None:
 
 def _draw_slice(axes: Axes) -> None:
     blue, red, pink = PALETTE[0], PALETTE[1], PALETTE[3]
-    axes.fill([2.2, 4.4, 4.4, 2.2], [-0.5, -0.5, 0.5, 0.5], color="#D5D9DE")
+    axes.fill([2.2, 4.4, 4.4, 2.2], [-0.5, -0.5, 0.5, 0.5], color=BODY)
     _arrow(axes, (1.0, 0), (2.15, 0), red)
     _text(axes, (0.9, 0), "N", red, "right")
     _arrow(axes, (5.6, 0), (4.45, 0), red)
@@ -187,7 +196,46 @@ def _draw_slice(axes: Axes) -> None:
     axes.set(xlim=(-1.4, 11.6), ylim=(-1.1, 1.0))
 
 
-MAKERS = (starter_modes, ruler_modes, howto, sweeps, speed_sweep, literal_methods, conventions)
+def gallery() -> None:
+    """Draw what the gallery shows beside the images of other pages: loads, and a report."""
+    from antinode.report.command import make_report
+    from antinode.report.pdf import to_pictures
+
+    save(plot_loads(load_case(STARTER)), IMAGES / "gallery_loads.png")
+    pages = to_pictures(make_report(STARTER)[0], 60)
+    sheets = [Image.open(io.BytesIO(page)).convert("RGB") for page in pages]
+    width, height = sheets[0].size
+    whole = Image.new("RGB", (3 * width + 2, height), GREY)
+    for k, number in enumerate((0, 3, 4)):
+        whole.paste(sheets[number], (k * (width + 1), 0))
+    whole.save(IMAGES / "gallery_report.png", optimize=True)
+
+
+def gallery_paper() -> None:
+    """Draw four of the figures of the paper on the reconstructed vehicle."""
+    from antinode.paper.comparison import compare
+    from antinode.paper.gallery import PLATES
+    from antinode.paper.scene import Scene
+
+    scene = Scene(compare())
+    for plate in PLATES:
+        if plate.name in PAPER:
+            save(plate.draw(scene)[0], IMAGES / f"gallery_{plate.name}.png")
+
+
+PAPER = ("figure_03_vehicle", "figure_07_cavity", "figure_09_characteristic", "differences")
+MAKERS = (
+    starter_modes,
+    ruler_modes,
+    howto,
+    sweeps,
+    tornado,
+    speed_sweep,
+    literal_methods,
+    conventions,
+    gallery,
+    gallery_paper,
+)
 
 
 def main() -> None:
@@ -196,7 +244,8 @@ def main() -> None:
     wanted = sys.argv[1:]
     for make in MAKERS:
         if not wanted or make.__name__ in wanted:
-            make()
+            with styled():
+                make()
 
 
 if __name__ == "__main__":

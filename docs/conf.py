@@ -1,0 +1,64 @@
+"""Settings of the documents as a site (Sphinx, MyST, furo); `python docs/build_site.py` builds it.
+
+Nothing is loaded from outside: furo brings its scripts and styles, fonts are the reader's own, and
+formulas are plain text, so that no MathJax is needed.
+"""
+
+from pygments.lexers.special import TextLexer
+from sphinx.highlighting import lexers
+
+from antinode import __version__
+
+project = "antinode"
+author = "The antinode developers"
+copyright = author
+release = version = __version__
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+root_doc = "docs/index"
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+suppress_warnings = ["ref.python"]  # names that two modules have
+smartquotes = False
+
+myst_heading_anchors = 4
+myst_enable_extensions: list[str] = []
+
+lexers["csv"] = TextLexer()
+
+napoleon_google_docstring = False
+napoleon_use_ivar = True
+napoleon_use_param = False
+napoleon_use_rtype = False
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_default_options = {"members": True}
+python_use_unqualified_type_names = True
+python_maximum_signature_line_length = 88
+
+html_theme = "furo"
+html_title = f"antinode {version}"
+html_copy_source = False
+html_show_sourcelink = False
+html_show_copyright = False
+html_theme_options = {
+    "light_css_variables": {"color-brand-primary": "#0072B2", "color-brand-content": "#0072B2"},
+    "dark_css_variables": {"color-brand-primary": "#56B4E9", "color-brand-content": "#56B4E9"},
+}
+
+
+def types_as_words(app, what, name, obj, options, lines):
+    """Put the type of an attribute, such as "array, shape (n,)", before its meaning, as words."""
+    types = {}
+    for line in [each for each in lines if each.startswith(":vartype ")]:
+        key, _, text = line.removeprefix(":vartype ").partition(": ")
+        types[key] = text
+        lines.remove(line)
+    for k, line in enumerate(lines):
+        head, _, text = line.removeprefix(":ivar ").partition(":")
+        if line.startswith(":ivar ") and head in types:
+            lines[k] = f":ivar {head}: *{types[head]}* – {text.strip()}".rstrip(" –")
+
+
+def setup(app):
+    """Connect to Sphinx, after napoleon."""
+    app.connect("autodoc-process-docstring", types_as_words, priority=900)
