@@ -54,7 +54,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         return _fail(str(error), error.exit_code)
     except (KeyboardInterrupt, BrokenPipeError) as error:
         _close_stdout()
-        return 130 if isinstance(error, KeyboardInterrupt) else 0
+        return _fail("interrupted", 130) if isinstance(error, KeyboardInterrupt) else 0
     except MemoryError:
         return _fail("there is not enough memory; ask for fewer modes or a larger tolerance", 1)
     except Exception as error:

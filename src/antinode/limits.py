@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy as np
 
+from .attachments import PointMass
 from .beam import Array, Beam
 from .errors import AntinodeError, ComputationError, InputError
 
@@ -19,6 +21,8 @@ SIZES = 1e-30, 1e30
 """Smallest and largest mass per length [kg/m], stiffness [N m^2, N], force [N]."""
 MOST_RATIO = 1e12
 """Largest over smallest value of a property along the beam."""
+MOST_POINT_MASS = 1e15
+"""Largest point mass over the mass of the beam without them."""
 MOST_BUCKLED = 12.0
 """Modes that the compression may make diverge, about."""
 MOST_TENSION = 1e7
@@ -52,7 +56,19 @@ def check_limits(beam: Beam) -> None:
         values = getattr(beam, name)
         if values is not None:
             _check_property(name, values)
+    _check_point_masses(beam)
     _check_axial_force(beam)
+
+
+def _check_point_masses(beam: Beam) -> None:
+    own = replace(beam, attachments=()).mass
+    for item in beam.attachments:
+        if isinstance(item, PointMass) and item.mass > MOST_POINT_MASS * own:
+            raise InputError(
+                f"the point mass of {item.mass:g} kg at x = {item.x:g} m is more than "
+                f"{MOST_POINT_MASS:g} times the beam's: check its unit, or hold the beam there by "
+                "a support"
+            )
 
 
 def _check_property(name: str, values: Array) -> None:

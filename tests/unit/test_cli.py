@@ -531,7 +531,7 @@ class TestFailures:
 
     def test_interrupted(self, mast, monkeypatch):
         self.broken(monkeypatch, KeyboardInterrupt())
-        assert run("beam", "beam.toml") == (130, "", "")
+        assert run("beam", "beam.toml") == (130, "", "antinode: interrupted\n")
 
     def test_loads_beyond_numbers(self, starter):
         for setting in ("condition.speed=1e300", "water.density=1e305"):

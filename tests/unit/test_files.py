@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from antinode import InputError, load_beam, load_case
+from antinode.attachments import PointMass
 from antinode.beam import Beam
 from antinode.beam_file import BeamFile
 from antinode.case import Case
@@ -291,6 +292,7 @@ class TestLimits:
             (uniform(N=1e6), "modes diverge"),
             (uniform(N=1e300), "modes diverge"),
             (uniform(N=-1e10), "tension"),
+            (uniform().with_attachments(PointMass(0.5, 1e20)), "hold the beam there by a support"),
         ],
     )
     def test_beyond_all_reason(self, beam, words):
@@ -302,8 +304,9 @@ class TestLimits:
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_examples_load(name, tmp_path):
     files, command = write_example(name, tmp_path)
-    load = load_case if " modes " in command else load_beam
-    assert load(next(f for f in files if f.suffix == ".toml")).beam().mass > 0
+    load = load_beam if " beam " in command else load_case
+    names = ("case.toml", "beam.toml")
+    assert load(next(f for f in files if f.name in names)).beam().mass > 0
 
 
 def test_stations_may_lie_in_another_folder(tmp_path):

@@ -151,7 +151,7 @@ APP = (
     "app.guard",
     "app.server",
 )
-COMMANDS = ("options", "study_options", "commands", "cli")
+COMMANDS = ("options", "study_options", "commands", "cli", "__main__")
 
 MAY_IMPORT = {
     WORDS: (),

@@ -1,0 +1,5 @@
+"""`python -m antinode` is the command `antinode`."""
+
+from .cli import main
+
+main()
