@@ -13,9 +13,11 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from PIL import Image
 
-from antinode import Beam, Ends, load_beam, load_case, load_study, solve_modes, sweep
+from antinode import Beam, Ends, load_beam, load_case, load_study, sensitivity, solve_modes, sweep
 from antinode.figures import PALETTE, plot_case, plot_loads, plot_modes, save
 from antinode.plot_style import BODY, GREY, INK, WIDTH, styled
+from antinode.study.sensitivity_command import read_uncertain
+from antinode.study.sensitivity_command import tornado as plot_tornado
 from antinode.study.sweep_figures import plot_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -51,6 +53,13 @@ def sweeps() -> None:
     for name, image in (("study", "sweep_speed"), ("history", "sweep_history")):
         study = load_study(EXAMPLES / "sweep" / f"{name}.toml")
         save(plot_sweep(study, sweep(study)), IMAGES / f"{image}.png")
+
+
+def tornado() -> None:
+    """Draw the indices of the page on sensitivity."""
+    uncertain = ("thrust=3kN", "bending_stiffness=2%", "mass_per_length=2%")
+    study = read_uncertain(STARTER, (), uncertain)
+    save(plot_tornado(sensitivity(study, 1024)), IMAGES / "sensitivity_tornado.png")
 
 
 def speed_sweep() -> None:
@@ -220,6 +229,7 @@ MAKERS = (
     ruler_modes,
     howto,
     sweeps,
+    tornado,
     speed_sweep,
     literal_methods,
     conventions,

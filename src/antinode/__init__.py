@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from .result import ModalResult, Mode
     from .study.identification import Identification, identify
     from .study.identification_file import IdentificationProblem, load_identification
+    from .study.sensitivity import sensitivity
     from .study.store import open_store
     from .study.study_file import Study, load_study
     from .study.sweep import sweep
@@ -59,6 +60,7 @@ _HOME = {
     "Study": "study.study_file",
     "load_study": "study.study_file",
     "sweep": "study.sweep",
+    "sensitivity": "study.sensitivity",
     "open_store": "study.store",
     "Cavitator": "vehicle",
     "FinSet": "vehicle",
@@ -97,6 +99,7 @@ __all__ = [
     "load_identification",
     "load_study",
     "open_store",
+    "sensitivity",
     "solve_many",
     "solve_modes",
     "sweep",

@@ -29,7 +29,7 @@ from .options import (
     Solver,
     ToFormat,
 )
-from .study_options import StudySet, Sweep
+from .study_options import Sensitivity, StudySet, Sweep
 from .text import one_line, short
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ Input files are TOML. Numbers are SI, angles in radians; a text carries its own 
 """,
 )
 _SOLVER, _OUTPUT, _EXCHANGE = Solver(), Output(), Exchange()
-_SWEEP = Sweep()
+_SWEEP, _SENSITIVITY = Sweep(), Sensitivity()
 
 
 @app.command(sort_key=2)
@@ -247,6 +247,41 @@ def sweep(
         scheduler=options.scheduler,
         plot=options.plot,
         overwrite=options.overwrite,
+        json=options.json,
+    )
+
+
+@app.command(sort_key=8)
+def sensitivity(
+    file: Path,
+    /,
+    *,
+    set_: StudySet = (),
+    options: Sensitivity = _SENSITIVITY,
+) -> None:
+    """Compute which inputs the frequencies depend on, and how uncertain they make them.
+
+    For every mode: mean, deviation and 95 % band over the distributions of the inputs, Sobol
+    indices (first order and total, with 95 % intervals), and the derivative at the case in % per %.
+
+    - Example: **antinode sensitivity case.toml --uncertain speed=2% --uncertain thrust=5%**
+    - Example: **antinode sensitivity samples.toml --samples 2048 --plot tornado.png**
+
+    Parameters
+    ----------
+    file
+        A study file whose inputs have distributions; or a case file, with --uncertain.
+    """
+    from .study.sensitivity_command import run_sensitivity
+
+    run_sensitivity(
+        file,
+        set_,
+        options.uncertain,
+        samples=options.samples,
+        workers=options.workers,
+        store=options.store,
+        plot=options.plot,
         json=options.json,
     )
 

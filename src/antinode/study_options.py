@@ -67,3 +67,40 @@ class Sweep:
         ),
     ] = False
     json: Json = False
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Sensitivity:
+    """What is uncertain, how it is sampled, and where the result goes."""
+
+    uncertain: Annotated[
+        tuple[str, ...],
+        Parameter(
+            help="An uncertain input with its standard deviation, normal about the case's value: "
+            "--uncertain speed=2% --uncertain thrust=3kN (repeatable).",
+            negative="",
+            show_default=False,
+            group=_input,
+        ),
+    ] = ()
+    samples: Annotated[
+        int | None,
+        Parameter(
+            converter=_whole,
+            help="Samples of each arrangement, best a power of 2; default: design.number, or 1024.",
+            group=_work,
+        ),
+    ] = None
+    workers: Annotated[
+        int | None, Parameter(converter=_whole, help="Processes; default: 1.", group=_work)
+    ] = None
+    store: Annotated[
+        Path | None,
+        Parameter(help="Folder that keeps all cases, as -o of sweep does.", group=_output),
+    ] = None
+    plot: Annotated[
+        Path | None,
+        Parameter(help="Draw a tornado of indices: .png, .svg or .pdf.", group=_output),
+    ] = None
+    json: Json = False

@@ -30,7 +30,7 @@ Array = npt.NDArray[np.float64]
 _COLUMNS = ("mass_per_length", "bending_stiffness", "axial_stiffness", "radius")
 _MOST_PERMUTED = 10_000_000
 _MOST_SOBOL = 21_000
-_SAMPLED = ("random", "latin_hypercube", "sobol")
+_SAMPLED = ("random", "latin_hypercube", "sobol", "saltelli")
 
 
 @dataclass(frozen=True)
@@ -231,7 +231,9 @@ class Points:
         """Return numbers between 0 and 1, shape (cases, variables)."""
         design, d = self.study.design, len(self.variables)
         if design.kind == "sobol":
-            return self._sobol(start, stop)
+            return self._sobol(start, stop, d)
+        if design.kind == "saltelli":
+            return self._saltelli(start, stop)
         rng = np.random.default_rng([design.seed, 1, chunk])
         inside = rng.random((stop - start, d))
         if design.kind == "random":
@@ -239,10 +241,24 @@ class Points:
         strata = np.stack([p[start:stop] for p in self._permutations], axis=1)
         return np.asarray((strata + inside) / self.cases)
 
-    def _sobol(self, start: int, stop: int) -> Array:
+    def _saltelli(self, start: int, stop: int) -> Array:
+        """Return rows of A, then B, then A with column 1, 2, ... of B."""
+        d = len(self.variables)
+        number = self.cases // (d + 2)
+        parts = []
+        for block in range(start // number, (stop - 1) // number + 1):
+            first, last = max(start - block * number, 0), min(stop - block * number, number)
+            both = self._sobol(first, last, 2 * d)
+            u = both[:, d:] if block == 1 else both[:, :d].copy()
+            if block > 1:
+                u[:, block - 2] = both[:, d + block - 2]
+            parts.append(u)
+        return np.concatenate(parts)
+
+    def _sobol(self, start: int, stop: int, dimensions: int) -> Array:
         from scipy.stats import qmc
 
-        engine = qmc.Sobol(len(self.variables), scramble=True, rng=self.study.design.seed)
+        engine = qmc.Sobol(dimensions, scramble=True, rng=self.study.design.seed)
         if start:
             engine.fast_forward(start)
         import warnings
@@ -310,14 +326,15 @@ def _sample_number(study: Study, variables: tuple[Variable, ...]) -> tuple[int, 
             )
         if v.kind == "time":
             raise InputError(f"inputs, {v.name}: a history needs kind = 'zip'")
-    if kind == "sobol" and len(variables) > _MOST_SOBOL:
-        raise InputError(f"{len(variables)} inputs; a sobol design has at most {_MOST_SOBOL}")
+    if kind in ("sobol", "saltelli") and 2 * len(variables) > _MOST_SOBOL:
+        raise InputError(f"{len(variables)} inputs; a {kind} design has at most {_MOST_SOBOL // 2}")
     if kind == "latin_hypercube" and number > _MOST_PERMUTED:
         raise InputError(
             f"design.number is {number}; a latin_hypercube has at most {_MOST_PERMUTED}: "
             "take kind = 'sobol'"
         )
-    return number, (number,)
+    total = number * (len(variables) + 2) if kind == "saltelli" else number
+    return total, (total,)
 
 
 def _zip_number(variables: tuple[Variable, ...]) -> tuple[int, tuple[int, ...]]:

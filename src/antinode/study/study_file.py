@@ -133,9 +133,10 @@ class StudyInput(Frozen):
 class Design(Frozen):
     """How the inputs vary together."""
 
-    kind: Literal["grid", "zip", "random", "latin_hypercube", "sobol"] = Field(
+    kind: Literal["grid", "zip", "random", "latin_hypercube", "sobol", "saltelli"] = Field(
         default="grid",
-        description="every combination; side by side, as in a table or a time history; or samples",
+        description="every combination; side by side, as in a table or a time history; or samples "
+        "(saltelli: those of antinode sensitivity, number times inputs + 2)",
     )
     number: int | None = Field(
         default=None, ge=1, strict=True, description="of samples (random, latin_hypercube, sobol)"

@@ -1,0 +1,270 @@
+"""Sensitivity: how uncertain the frequencies are, and which inputs make them so.
+
+    result = sensitivity(study, 1024)
+
+Global: mean, deviation, 95 % band and Sobol indices of every frequency over the distributions of
+the inputs. Local: derivatives at the case itself, from the mode shapes, in % per %.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.case import Case
+from antinode.errors import AntinodeError, ComputationError, InputError
+from antinode.riccati.chain import Family
+
+from .chunks import failed, mode_names
+from .design import Points, Variable, points_of
+from .identification_file import Distribution, IdentificationProblem, ObservationRow, Parameter
+from .indices import Indices, sobol_indices
+from .misfit import RowDerivative
+from .response import respond, sufficient_refinement
+from .study_file import Study
+from .sweep import sweep
+from .unknowns import make_unknowns
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ModeSensitivity:
+    """What one frequency depends on.
+
+    Attributes
+    ----------
+    name : str
+    nominal, mean, sd : float
+        Of the case itself; over the distributions [Hz].
+    band : tuple of float
+        2.5 and 97.5 % quantiles [Hz].
+    indices : Indices
+        By input.
+    slope : array
+        Derivative at the case by each input [Hz for each SI unit]; NaN where there is none.
+    elasticity : array
+        The same in % per %.
+    """
+
+    name: str
+    nominal: float
+    mean: float
+    sd: float
+    band: tuple[float, float]
+    indices: Indices
+    slope: Array
+    elasticity: Array
+
+
+@dataclass(frozen=True)
+class SensitivityResult:
+    """Sensitivities of all frequencies.
+
+    Attributes
+    ----------
+    name : str
+    inputs, units : tuple of str
+    modes : tuple of ModeSensitivity
+    samples, cases, failed : int
+        Samples of each arrangement; all cases; those of them that failed.
+    """
+
+    name: str
+    inputs: tuple[str, ...]
+    units: tuple[str, ...]
+    modes: tuple[ModeSensitivity, ...]
+    samples: int
+    cases: int
+    failed: int
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain values for JSON."""
+        return {
+            "schema_version": 1,
+            "name": self.name,
+            "samples": self.samples,
+            "cases": self.cases,
+            "failed": self.failed,
+            "inputs": [
+                {"name": n, "unit": u} for n, u in zip(self.inputs, self.units, strict=True)
+            ],
+            "modes": [self._mode(m) for m in self.modes],
+        }
+
+    def _mode(self, m: ModeSensitivity) -> dict[str, Any]:
+        return {
+            "name": m.name,
+            "frequency_hz": m.nominal,
+            "mean_hz": m.mean,
+            "sd_hz": m.sd,
+            "band_hz": list(m.band),
+            "inputs": [
+                {
+                    "name": name,
+                    "first": m.indices.first[k],
+                    "first_band": m.indices.first_band[k],
+                    "total": m.indices.total[k],
+                    "total_band": m.indices.total_band[k],
+                    "slope_hz_per_unit": m.slope[k],
+                    "percent_per_percent": m.elasticity[k],
+                }
+                for k, name in enumerate(self.inputs)
+            ],
+        }
+
+
+def sensitivity(
+    study: Study,
+    samples: int | None = None,
+    *,
+    workers: int = 1,
+    store: str | Path | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> SensitivityResult:
+    """Compute the sensitivities of all frequencies of a study to its inputs.
+
+    Parameters
+    ----------
+    study : Study
+        Its inputs have distributions; its design is replaced.
+    samples : int, optional
+        Of each arrangement; inputs + 2 times as many cases are solved. By default design.number,
+        or 1024.
+    workers : int
+    store : str or Path, optional
+        Where the cases are kept, as in `sweep`.
+    progress : callable, optional
+
+    Raises
+    ------
+    InputError
+        If an input has no distribution.
+    ComputationError
+        If less than half of the samples can be solved.
+    """
+    number = samples or study.design.number or 1024
+    if number < 8:
+        raise InputError(f"{number} samples are too few; take 1024")
+    design = study.design.model_copy(update={"kind": "saltelli", "number": number, "table": None})
+    outputs = tuple(dict.fromkeys(("frequency_hz", *study.outputs)))
+    made = study.model_copy(update={"design": design, "outputs": outputs})
+    points = points_of(made)
+    data = sweep(made, store, workers=workers, progress=progress)
+    hz, reason = np.asarray(data["frequency_hz"]), np.asarray(data["reason"])
+    known = np.isfinite(hz[: 2 * number]).all(axis=1).mean()
+    if known < 0.5:
+        raise ComputationError(
+            f"only {known:.0%} of the samples have all frequencies; narrow the distributions"
+        )
+    slopes = local_slopes(made, points)
+    modes = [
+        _mode(points, name, hz[:, k], number, slopes) for k, name in enumerate(mode_names(made))
+    ]
+    return SensitivityResult(
+        name=study.name or study.case.vehicle.name,
+        inputs=tuple(v.name for v in points.variables),
+        units=tuple(v.unit for v in points.variables),
+        modes=tuple(modes),
+        samples=number,
+        cases=points.cases,
+        failed=int(np.count_nonzero(failed(reason))),
+    )
+
+
+def _mode(
+    points: Points, name: str, hz: Array, number: int, slopes: dict[str, tuple[float, Array]]
+) -> ModeSensitivity:
+    both = hz[: 2 * number]
+    both = both[np.isfinite(both)]
+    nominal, slope = slopes[name]
+    start = np.array([np.nan if v.start is None else v.start for v in points.variables])
+    low, high = np.quantile(both, [0.025, 0.975])
+    return ModeSensitivity(
+        name=name,
+        nominal=nominal,
+        mean=float(both.mean()),
+        sd=float(both.std(ddof=1)),
+        band=(float(low), float(high)),
+        indices=sobol_indices(hz, len(points.variables)),
+        slope=slope,
+        elasticity=slope * start / nominal,
+    )
+
+
+def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]:
+    """Return frequency [Hz] and its derivatives by the inputs, at the case, of every mode.
+
+    The derivatives come from the mode shapes, and from the loads by the chain rule.
+    """
+    wanted: dict[Family, int] = dict.fromkeys(study.solve.families, study.solve.modes)
+    found: dict[str, tuple[float, Array]] = {}
+    try:
+        refinement = sufficient_refinement(study.case, wanted, 1e-9)
+        (response,) = respond([study.case], [wanted], refinement)
+    except AntinodeError:
+        nothing = np.full(len(points.variables), np.nan)
+        return dict.fromkeys(mode_names(study), (np.nan, nothing))
+    for family, number in wanted.items():
+        omega2 = response.modes[family].omega2
+        by_input = np.stack(
+            [_by_input(study.case, response, v, family) for v in points.variables], axis=1
+        )
+        for k in range(number):
+            with np.errstate(all="ignore"):
+                hz = float(np.sqrt(omega2[k]) / (2 * np.pi))
+                found[f"{family} {k + 1}"] = hz, by_input[k] / (8 * np.pi**2 * hz)
+    return found
+
+
+def _by_input(case: Case, response: Any, variable: Variable, family: Family) -> Array:
+    """Return d(omega^2) of every mode of a family by an input."""
+    nothing = np.full(len(response.modes[family].omega2), np.nan)
+    if variable.start is None:
+        return nothing
+    try:
+        problem, entry = _problem(case, variable)
+        unknowns = make_unknowns(problem, [case], [set()])
+    except (AntinodeError, ValueError):
+        return nothing
+    vector = unknowns.start
+    slopes = unknowns.slopes(vector)
+    derivative = RowDerivative(unknowns, 0, response, slopes, unknowns.logarithms(vector))
+    by_entry = derivative.by_vector(family)[:, entry]
+    if variable.kind == "column":  # the entry is a logarithm, over its size; the factor is 1 here
+        return np.asarray(by_entry / unknowns.items[entry].size)
+    by_value = by_entry / slopes[entry]
+    own = unknowns.items[entry].start
+    return np.asarray(by_value * own if variable.given.factor else by_value)
+
+
+def _problem(case: Case, variable: Variable) -> tuple[IdentificationProblem, int]:
+    """Return a problem with one parameter or column, and the entry of the variable in it."""
+    row = ObservationRow(bending=(1.0,))
+    if variable.kind != "column":
+        parameter = Parameter(key=variable.key)
+        problem = IdentificationProblem(case=case, observations=(row,), parameters=(parameter,))
+        return problem, 0
+    given = variable.given
+    column = ":".join(map(str, variable.keys[2:]))
+    points = given.control_points
+    single = Distribution(
+        column=column,
+        control_points=1 if points is None else points,
+        interpolation=given.interpolation,
+    )
+    entry = 0 if points is None else _control_point(case, variable, points)
+    return IdentificationProblem(case=case, observations=(row,), distributions=(single,)), entry
+
+
+def _control_point(case: Case, variable: Variable, points: int | Sequence[float]) -> int:
+    """Return the number of a variable's control point, which its name ends with."""
+    x = case.vehicle.stations.x
+    places = np.linspace(x[0], x[-1], points) if isinstance(points, int) else np.array(points)
+    at = float(variable.name.rpartition(" at ")[2].removesuffix(" m"))
+    return int(np.argmin(np.abs(places - at)))

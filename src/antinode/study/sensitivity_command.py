@@ -1,0 +1,164 @@
+"""What `antinode sensitivity` does: read, sample, print, draw."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from antinode.case import load_case
+from antinode.errors import InputError
+from antinode.files import read_toml
+from antinode.text import counted, short
+
+from .sensitivity import SensitivityResult, sensitivity
+from .study_file import Study, StudyInput, load_study
+from .sweep_report import end_progress, stderr_progress
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_SHOWN = 6
+
+
+def run_sensitivity(
+    file: Path,
+    assignments: Iterable[str],
+    uncertain: Sequence[str],
+    *,
+    samples: int | None,
+    workers: int | None,
+    store: Path | None,
+    plot: Path | None,
+    json: bool,
+) -> None:
+    """Compute sensitivities, and give the result out."""
+    if plot:
+        from antinode.figures import check_plot
+
+        check_plot(plot)
+    study = read_uncertain(file, assignments, uncertain)
+    try:
+        result = sensitivity(
+            study, samples, workers=workers or 1, store=store, progress=stderr_progress()
+        )
+    finally:
+        end_progress()
+    if plot:
+        from antinode.figures import save
+
+        save(tornado(result), plot)
+        sys.stderr.write(f"wrote {plot}\n")
+    if json:
+        from antinode.dataset import to_json
+
+        sys.stdout.write(to_json(result.to_dict()) + "\n")
+    else:
+        from antinode.printing import console
+
+        show_sensitivity(console(), result)
+
+
+def read_uncertain(file: Path, assignments: Iterable[str], uncertain: Sequence[str]) -> Study:
+    """Read a study file; or a case file, whose uncertain inputs are given one by one."""
+    inputs = tuple(_uncertain_input(text) for text in uncertain)
+    if "vehicle" in read_toml(file):
+        if not inputs:
+            raise InputError(
+                f"{file}: this is a case; say what is uncertain, e.g. --uncertain speed=2%, or "
+                "name a study file"
+            )
+        return Study(case=load_case(file, assignments), inputs=inputs)
+    study = load_study(file, assignments)
+    return study.model_copy(update={"inputs": (*study.inputs, *inputs)})
+
+
+def _uncertain_input(text: str) -> StudyInput:
+    """Read ``thrust=5%`` or ``thrust=2kN``: a normal distribution about the case's value."""
+    key, equals, size = (part.strip() for part in text.partition("="))
+    if not equals or not key or not size:
+        raise InputError(
+            f"--uncertain {short(text)}: write an input and its standard deviation, "
+            "e.g. speed=2% or thrust=3kN"
+        )
+    if not size.endswith("%"):
+        return StudyInput(key=key, distribution="normal", sd=size)
+    try:
+        share = float(size[:-1]) / 100
+    except ValueError:
+        raise InputError(f"--uncertain {short(text)}: '{size[:20]}' is no number") from None
+    return StudyInput(key=key, distribution="normal", sd=share, factor=True)
+
+
+def show_sensitivity(out: Console, result: SensitivityResult) -> None:
+    """Print bands, then the inputs that matter for each mode."""
+    out.print(
+        f"[bold]{result.name}[/bold]: {counted(result.samples, 'sample')}, "
+        f"{counted(result.cases, 'case')}, {result.failed} failed",
+        highlight=False,
+    )
+    bands = _new_table("mode", "nominal [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to")
+    for m in result.modes:
+        cells = (m.nominal, m.mean, m.sd, *m.band)
+        bands.add_row(m.name, *(f"{v:.5g}" for v in cells))
+    out.print(bands)
+    table = _new_table("mode", "input", "total index", "+-", "first index", "+-", "% per %", left=2)
+    for m in result.modes:
+        order = np.argsort(-np.nan_to_num(m.indices.total))[:_SHOWN]
+        for number, k in enumerate(order.tolist()):
+            halves = [np.ptp(b[k]) / 2 for b in (m.indices.total_band, m.indices.first_band)]
+            table.add_row(
+                m.name if number == 0 else "",
+                Text(result.inputs[k]),
+                *(
+                    f"{v:.3f}"
+                    for v in (m.indices.total[k], halves[0], m.indices.first[k], halves[1])
+                ),
+                f"{m.elasticity[k]:+.4f}" if np.isfinite(m.elasticity[k]) else "",
+            )
+    out.print(table)
+
+
+def _new_table(*headings: str, left: int = 1) -> Table:
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    for k, heading in enumerate(headings):
+        table.add_column(Text(heading), justify="left" if k < left else "right", no_wrap=k > 0)
+    return table
+
+
+def tornado(result: SensitivityResult) -> Figure:
+    """Draw the total and first indices of every mode, largest inputs on top."""
+    from antinode.figures import PALETTE, STYLE, pyplot
+
+    plt, modes = pyplot(), result.modes[:6]
+    rows = -(-len(modes) // 2)
+    with plt.rc_context(STYLE):
+        figure: Figure
+        figure, panels = plt.subplots(
+            rows, min(2, len(modes)), squeeze=False, layout="constrained", sharex=True,
+            figsize=(8.4, rows * (0.9 + 0.3 * min(len(result.inputs), 8))),
+        )  # fmt: skip
+        for m, axes in zip(modes, panels.ravel(), strict=False):
+            order = np.argsort(np.nan_to_num(m.indices.total))[-8:]
+            y = np.arange(len(order))
+            total, band = m.indices.total[order], m.indices.total_band[order]
+            error = np.abs(band.T - total)
+            axes.barh(y, total, 0.7, color=PALETTE[5], label="total")
+            axes.barh(y, m.indices.first[order], 0.35, color=PALETTE[0], label="first order")
+            axes.errorbar(total, y, xerr=error, fmt="none", ecolor="#374151", linewidth=1)
+            axes.set_yticks(y, [result.inputs[k].replace("_", " ") for k in order])
+            axes.set_title(f"{m.name}: {m.mean:.4g} Hz, sd {m.sd:.2g} Hz", loc="left")
+            axes.grid(visible=False, axis="y")
+        for axes in panels.ravel()[len(modes) :]:
+            axes.set_visible(False)
+        for axes in panels[-1]:
+            axes.set_xlabel("Sobol index: share of the variance")
+        panels[0, -1].legend(loc="lower right")
+    return figure
