@@ -100,5 +100,5 @@ def test_workbook(tmp_path):
 
 
 def test_an_unknown_ending_is_refused(tmp_path):
-    with pytest.raises(InputError, match=r"allowed are \.csv, \.xlsx, \.json"):
+    with pytest.raises(InputError, match=r"allowed are \.csv, \.json, \.nc, \.xlsx"):
         check_modal_output(tmp_path / "modes.doc")

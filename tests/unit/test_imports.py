@@ -103,9 +103,6 @@ STUDY = (
     "study.sweep_figures",
     "study.sweep_report",
     "study.sweep_command",
-    "study.indices",
-    "study.sensitivity",
-    "study.sensitivity_command",
 )
 REPORT = (
     "report",
@@ -124,6 +121,30 @@ REPORT = (
     "report.html",
     "report.pdf",
     "report.command",
+)
+EXCHANGE = (
+    "exchange",
+    "exchange.extras",
+    "exchange.units",
+    "exchange.formats",
+    "exchange.tabulated",
+    "exchange.beam_toml",
+    "exchange.station_csv",
+    "exchange.workbook",
+    "exchange.matlab",
+    "exchange.vtk",
+    "exchange.nastran_cards",
+    "exchange.nastran_writer",
+    "exchange.nastran_model",
+    "exchange.nastran_reader",
+    "exchange.sections",
+    "exchange.uff_writer",
+    "exchange.frf",
+    "exchange.uff_reader",
+    "exchange.observation_rows",
+    "exchange.outputs",
+    "exchange.inputs",
+    "exchange.convert",
 )
 EXAMPLES = ("examples",)
 APP = (
@@ -168,6 +189,7 @@ MAY_IMPORT = {
     PAPER: (WORDS, RICCATI, BEAM, MODES, INPUTS, OUTPUTS),
     STUDY: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),
     REPORT: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS, STUDY),
+    EXCHANGE: (WORDS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),
     EXAMPLES: (WORDS,),
     APP: (WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS, EXAMPLES),
     COMMANDS: (EXAMPLES, WORDS, PHYSICS, RICCATI, BEAM, MODES, READING, INPUTS, OUTPUTS),

@@ -29,9 +29,9 @@ INPUTS: dict[str, Format] = {
 OUTPUTS: dict[str, Format] = {
     ".toml": "toml",
     ".csv": "csv",
-    ".xlsx": "xlsx",
     ".json": "json",
     ".nc": "netcdf",
+    ".xlsx": "xlsx",
     ".mat": "mat",
     ".bdf": "nastran",
     ".nas": "nastran",
