@@ -103,6 +103,9 @@ STUDY = (
     "study.sweep_figures",
     "study.sweep_report",
     "study.sweep_command",
+    "study.indices",
+    "study.sensitivity",
+    "study.sensitivity_command",
 )
 REPORT = (
     "report",
