@@ -241,7 +241,7 @@ def sweep(
 
     run_sweep(
         study,
-        set_,
+        options.assignments(set_),
         options.output,
         workers=options.workers,
         scheduler=options.scheduler,

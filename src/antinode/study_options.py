@@ -31,6 +31,14 @@ StudySet = Annotated[
 class Sweep:
     """Where a sweep is computed, and where it goes."""
 
+    modes: Annotated[
+        int | None,
+        Parameter(
+            converter=_whole,
+            help="Modes of each family, up to 100; default: the file's, or 6.",
+            group=_work,
+        ),
+    ] = None
     output: Annotated[
         Path | None,
         Parameter(
@@ -67,6 +75,10 @@ class Sweep:
         ),
     ] = False
     json: Json = False
+
+    def assignments(self, given: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the overrides of the study file, the number of modes among them."""
+        return given if self.modes is None else (*given, f"solve.modes={self.modes}")
 
 
 @Parameter(name="*")

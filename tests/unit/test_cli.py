@@ -387,7 +387,7 @@ class TestSchema:
     def test_accepts_the_examples(self, tmp_path, name):
         run("init", "--example", name, tmp_path)
         for file in tmp_path.glob("*.toml"):
-            of = "case" if file.name == CASE else "beam"
+            of = {CASE: "case", "beam.toml": "beam"}.get(file.name, "study")
             jsonschema.validate(tomllib.loads(file.read_text()), strict_json(run("schema", of).out))
 
     @pytest.mark.parametrize(
