@@ -195,9 +195,9 @@ def test_modes_units_baseline_and_band(tab, address):
     tab.page.get_by_role("button", name="mode 4").click()
     tab.page.get_by_label("Let the modes vibrate").click()
     tab.page.get_by_role("button", name="Longitudinal").click()
-    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)').innerText === '56.557'")
+    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '56.557'")
     tab.page.get_by_role("button", name="Bending").click()
-    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)').innerText === '3.24871'")
+    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '3.24871'")
     tab.page.get_by_label("Pin the frequencies").click()
     tab.page.wait_for_selector(".an-pinned")
     tab.page.get_by_label("from", exact=True).fill("18")
@@ -231,7 +231,7 @@ def test_the_table_of_stations(tab, address):
     tab.page.get_by_role("button", name="Undo").click()
     tab.page.get_by_role("button", name="Undo").click()
     tab.page.wait_for_selector(".an-main:not(.an-stale)")
-    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)').innerText === '3.24871'")
+    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '3.24871'")
     assert_clean(tab, address)
 
 

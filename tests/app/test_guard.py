@@ -1,7 +1,5 @@
 """Who may talk to the server."""
 
-import asyncio
-
 import pytest
 
 pytest.importorskip("nicegui", reason="nicegui is not installed (extra web)")
@@ -9,6 +7,7 @@ pytest.importorskip("nicegui", reason="nicegui is not installed (extra web)")
 from antinode.app.guard import LOOPBACK, Guard
 from antinode.app.server import _free_port, first_state, opened
 from antinode.errors import InputError
+from app_browser import run_async
 from cli_run import run
 
 
@@ -37,7 +36,7 @@ def ask(guard, headers=(), query=b"", kind="http", body=(b"",)):
     async def send(message):
         sent.append(message)
 
-    asyncio.run(guard(scope, receive, send))
+    run_async(guard(scope, receive, send))
     return sent
 
 

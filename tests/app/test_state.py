@@ -20,7 +20,7 @@ from antinode.app.page import equipment
 from antinode.app.panels.frequencies import baseline_of, frequencies_data
 from antinode.app.panels.numbers import short_list
 from antinode.app.quick import quick_modes, wait_until_warm, warm_up
-from antinode.app.save import case_toml, result_file
+from antinode.app.save import case_toml, report_file, result_file
 from antinode.app.source import read_dropped, read_example, read_file
 from antinode.app.state import File, History, State, fields_of, packed, unpacked
 from antinode.app.stations import columns_of, shown_rows, si_table
@@ -348,6 +348,13 @@ def test_results_as_files(tmp_path):
     assert json.loads(result_file(picture, ".json"))["condition"]["speed_m_per_s"] == 80.0
     pytest.importorskip("h5netcdf", reason="h5netcdf is not installed (extra dataset)")
     assert result_file(picture, ".nc")[1:4] == b"HDF"
+
+
+def test_the_report_of_a_state():
+    pytest.importorskip("jinja2", reason="jinja2 is not installed (extra report)")
+    page = report_file(starter(condition__speed=90.0), ".html").decode()
+    assert "<html" in page
+    assert "starter" in page
 
 
 def test_awkward_names_are_saved():

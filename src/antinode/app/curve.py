@@ -75,7 +75,7 @@ def _solved(state: State, item: Input, values: Array, modes: int) -> tuple[Array
     for row, value in enumerate(values.tolist()):
         try:
             beam = state.changed({item.path: value}).problem.beam()
-            omega2[row] = quick_omega2(beam, modes)[0]
+            omega2[row] = quick_omega2(beam, modes)
         except AntinodeError:
             continue  # a gap: the input is not allowed there
     return values, omega2

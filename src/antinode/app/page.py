@@ -20,7 +20,7 @@ from .display import SYSTEMS
 from .elements import Board, Picture, style_sheet
 from .fields import Fields
 from .inputs import Input, numbers, sliders
-from .save import case_toml, result_file
+from .save import case_toml, report_file, result_file
 from .session import Session
 from .source import MOST_BYTES, read_dropped, read_example
 from .state import State
@@ -117,8 +117,9 @@ class Page:
         with _button("Open", "folder_open"), ui.menu().props("auto-close"):
             ui.menu_item("A file … (or drop it on the page)", self._board.choose)
             ui.separator()
-            for example in EXAMPLES:
-                ui.menu_item(f"Example: {example.replace('_', ' ')}", self._opener(example))
+            for example in (e for e, run in EXAMPLES.items() if "sweep" not in run):
+                words = f"Example: {example.replace('_', ' ')}"
+                ui.menu_item(words, self._opener(example)).mark(f"example-{example}")
         _button("Stations", "table_rows", self._stations.open)
         self._undo = _button("Undo", "undo", self.session.undo)
         with _button("Save", "download"), ui.menu().props("auto-close"):
@@ -126,6 +127,9 @@ class Page:
             ui.separator()
             for ending, what in ((".csv", "table"), (".json", "all numbers"), (".nc", "shapes")):
                 ui.menu_item(f"Results, {ending} ({what})", self._saver(ending))
+            ui.separator()
+            for ending in (".html", ".pdf"):
+                ui.menu_item(f"The report, {ending}", self._reporter(ending))
         _button("Link", "link", self._copy_link)
         ui.separator().props("vertical").classes("an-rule")
         ui.select(list(SYSTEMS), value=state.view.units, on_change=self._units).props(
@@ -159,7 +163,7 @@ class Page:
                     value=getattr(held, side, "free"),
                     label=f"{side} end",
                     on_change=self._end_setter(side),
-                ).props("dense options-dense outlined").classes("an-choice").mark(f"end {side}")
+                ).props("dense options-dense outlined").classes("an-choice").mark(f"end-{side}")
 
     def _end_setter(self, side: str) -> Callable[[events.ValueChangeEventArguments[Any]], None]:
         return lambda e: self.session.change({f"beam.ends.{side}": str(e.value)})
@@ -334,6 +338,19 @@ class Page:
                 self._note(str(error))
                 return
             ui.download.content(content, f"modes{ending}")
+
+        return save
+
+    def _reporter(self, ending: str) -> Callable[[], Any]:
+        async def save() -> None:
+            ui.notify("The report is being written …", position="bottom-right")
+            state = self.session.state
+            try:
+                content = await self.session.run(lambda: report_file(state, ending))
+            except AntinodeError as error:
+                self._note(str(error))
+                return
+            ui.download.content(content, f"report{ending}")
 
         return save
 

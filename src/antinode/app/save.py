@@ -6,6 +6,7 @@ import json
 import math
 import re
 import tempfile
+import threading
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -64,6 +65,30 @@ def _value(value: Any) -> str:
     if isinstance(value, float) and math.isinf(value):
         return "inf" if value > 0 else "-inf"
     return repr(value)
+
+
+_one_report = threading.Lock()
+
+
+def report_file(state: State, ending: str) -> bytes:
+    """Return the report on a state, .html or .pdf, as `antinode report` writes it.
+
+    Raises
+    ------
+    AntinodeError
+        If the input is wrong, or a library for it is not installed.
+    """
+    from antinode.report.command import make_report, write_report
+    from antinode.report.extras import check_libraries
+
+    with tempfile.TemporaryDirectory() as folder, _one_report:
+        source = Path(folder) / ("case.toml" if state.is_vehicle else "beam.toml")
+        output = Path(folder) / f"report{ending}"
+        check_libraries(output)
+        source.write_text(case_toml(state), encoding="utf-8")
+        document, _ = make_report(source)
+        write_report(document, output)
+        return output.read_bytes()
 
 
 def result_file(picture: Picture, ending: str) -> bytes:

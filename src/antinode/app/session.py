@@ -158,7 +158,7 @@ class Session:
     async def _show(self, state: State, compute: Callable[[State], Picture], _: str) -> bool:
         """Compute a picture and send it; on an error say so and keep the last one."""
         try:
-            picture, data, inputs = await self._run(lambda: self._data(state, compute(state)))
+            picture, data, inputs = await self.run(lambda: self._data(state, compute(state)))
         except AntinodeError as error:
             self._fail(str(error))
             return False
@@ -231,7 +231,7 @@ class Session:
             return True
         growing = grow_curve(state, item)
         for _ in range(levels):
-            curve = await self._run(lambda: _following(growing))
+            curve = await self.run(lambda: _following(growing))
             if curve is None or version != self._version:
                 return False
             if len(curve.values) > points:
@@ -239,7 +239,8 @@ class Session:
                 self._send({"curve": self._curve_patch(state, item, picture)})
         return True
 
-    async def _run(self, work: Callable[[], Any]) -> Any:
+    async def run(self, work: Callable[[], Any]) -> Any:
+        """Do some work beside the event loop."""
         return await asyncio.get_running_loop().run_in_executor(_workers, work)
 
     def _send(self, data: Mapping[str, Any], **more: Any) -> None:
@@ -272,7 +273,7 @@ class Session:
             If there is none.
         """
         state = self.state
-        picture: Picture = await self._run(lambda: full_picture(state))
+        picture: Picture = await self.run(lambda: full_picture(state))
         return picture
 
 

@@ -72,14 +72,20 @@ export function frequencies(element) {
   }
 
   let count = 0;
+  let family = "";
   const fit = () => {
-    const room = (element.clientHeight - 24 - foot.offsetHeight) / Math.max(count, 1);
-    table.style.setProperty("--an-row", `${Math.max(21, Math.min(38, Math.floor(room)))}px`);
+    const room = (element.clientHeight - 30 - foot.offsetHeight) / Math.max(count, 1) - 1;
+    table.style.setProperty("--an-row", `${Math.max(20, Math.min(38, Math.floor(room)))}px`);
   };
 
   return {
     resize: fit,
     show(data) {
+      if (data.quick && !data.rows.length && data.family === family) {
+        table.classList.add("an-quick"); // the last rows stay until the full result is there
+        return;
+      }
+      family = data.family;
       table.classList.toggle("an-pinned", data.pinned);
       table.classList.toggle("an-quick", data.quick);
       rows.replaceChildren(...data.rows.map((r) => line(data, r)));
