@@ -43,6 +43,7 @@ app = App(
     name="antinode",
     version=__version__,
     help_format="markdown",
+    suppress_keyboard_interrupt=False,
     help="""Natural frequencies and modes of slender vehicles in motion, and of any beam.
 
 Start with **antinode init** and **antinode modes case.toml**, or with **antinode init --beam** and

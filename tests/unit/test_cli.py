@@ -259,7 +259,7 @@ class TestInit:
         assert said.code == 0
         command = said.out.splitlines()[-1].removeprefix("next: antinode ")
         done = subprocess.run(
-            f"{sys.executable} -c 'from antinode.cli import main; main()' {command} --modes 2",
+            f"{sys.executable} -c 'from antinode.cli import main; main()' {command}",
             shell=True,
             capture_output=True,
             text=True,
