@@ -396,7 +396,9 @@ def report(
     tolerance: ReportTolerance = None,
     json: Json = False,
 ) -> None:
-    """Write a report on a case or a beam that can be handed to a reviewer: .pdf or .html.
+    """Write a report on a case, a beam or a study that can be handed to a reviewer.
+
+    The ending says what: .pdf or .html.
 
     Assumptions first, then inputs, loads with their checks, the ranges of the correlations,
     frequencies with errors and brackets, the effect of the axial force, shapes, sensitivities,
@@ -408,7 +410,7 @@ def report(
     Parameters
     ----------
     file
-        A case or a beam file in TOML.
+        A case, a beam or a study file in TOML.
     """
     from .report.command import run_report
 

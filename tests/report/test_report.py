@@ -136,6 +136,20 @@ def test_html_is_one_file_that_loads_nothing(folder):
         assert page.count("<svg") == 2
 
 
+def test_a_study_with_tracked_frequencies_and_one_with_indices(folder):
+    write_example("sweep", folder / "sweep")
+    few = ("inputs.0.number=4", "solve.modes=2")
+    document, told = make_report(folder / "sweep" / "study.toml", few)
+    blocks = section(document, "Frequencies").blocks
+    tracked = next(b for b in blocks if isinstance(b, Table) and "Tracked" in b.caption[0].text)
+    assert len(tracked.rows) == 8
+    assert told == []
+    document, _ = make_report(folder / "sweep" / "samples.toml", ("design.number=16",), 1)
+    causes = section(document, "Uncertainty and its causes").blocks
+    assert next(row[1] for row in texts(causes[2])) == "thrust"
+    assert "http" not in to_html(document)
+
+
 def test_html_escapes_what_a_file_says(folder):
     name = ("beam.name='<script>alert(1)</script>'",)
     page = to_html(make_report(folder / "tower" / "beam.toml", name)[0])

@@ -121,6 +121,7 @@ REPORT = (
     "report.influence_section",
     "report.vehicle_report",
     "report.beam_report",
+    "report.study_report",
     "report.html",
     "report.pdf",
     "report.command",

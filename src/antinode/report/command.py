@@ -36,7 +36,7 @@ def run_report(
     tolerance: float | None = None,
     json: bool = False,
 ) -> None:
-    """Write the report on a case or a beam, and say so."""
+    """Write the report on a case, a beam or a study, and say so."""
     started = time.monotonic()
     check_output(output, ENDINGS)
     check_libraries(output)
@@ -58,12 +58,14 @@ def make_report(
 ) -> tuple[Document, list[str]]:
     """Return the report on whatever a file holds, and its warnings."""
     tables = read_toml(file)
-    if "vehicle" not in tables and "beam" not in tables:
+    if not {"vehicle", "beam", "case"} & set(tables):
         raise InputError(
-            f"{file}: there is neither a table [vehicle] nor [beam] in it; name a case or a beam "
-            "file, e.g. one that 'antinode init' writes"
+            f"{file}: there is neither a table [vehicle] nor [beam], nor the case of a study in "
+            "it; name a case, a beam or a study file, e.g. one that 'antinode init' writes"
         )
     overrides = "".join(f" --set {shlex.quote(each)}" for each in assignments)
+    if "case" in tables:
+        return _of_study(file, assignments, modes, tolerance, f"antinode sweep {file.name}")
     if "vehicle" in tables:
         case = load_case(file, assignments)
         result = _solved(case, modes, tolerance)
@@ -75,6 +77,26 @@ def make_report(
     command = f"antinode beam {file.name}{overrides}"
     document = beam_report(beam, result, source_of(file, assignments, beam), command)
     return document, list(result.warnings)
+
+
+def _of_study(
+    file: Path,
+    assignments: tuple[str, ...],
+    modes: int | None,
+    tolerance: float | None,
+    command: str,
+) -> tuple[Document, list[str]]:
+    from antinode.study.store import import_store
+    from antinode.study.study_file import load_study
+
+    from .study_report import study_report
+
+    import_store()
+    given = {"solve.modes": modes, "solve.tolerance": tolerance}
+    more = tuple(f"{key}={value}" for key, value in given.items() if value is not None)
+    study = load_study(file, (*assignments, *more))
+    overrides = "".join(f" --set {shlex.quote(each)}" for each in (*assignments, *more))
+    return study_report(study, source_of(file, assignments, study), command + overrides)
 
 
 def _solved(problem: Case | BeamFile, modes: int | None, tolerance: float | None) -> ModalResult:

@@ -1,0 +1,189 @@
+"""The report on a study: what varies, tracked frequencies, failures, and Sobol indices."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from antinode.study.design import Points, points_of
+from antinode.study.sensitivity import SensitivityResult, sensitivity
+from antinode.study.study_file import Study
+from antinode.study.sweep import sweep
+from antinode.study.sweep_figures import plot_sweep
+from antinode.study.sweep_report import summary
+from antinode.text import counted
+
+from .blocks import Block, Document, Section, paragraph, runs, table
+from .inputs import case_inputs
+from .modal_sections import drawn
+from .numbers import number, percent
+from .provenance import Source, provenance_section, today
+from .vehicle_report import facts, warnings_section
+from .words import method_section
+
+if TYPE_CHECKING:
+    import xarray
+
+_MOST_ROWS = 25
+_SAMPLED = ("random", "latin_hypercube", "sobol", "saltelli")
+_MOST_SAMPLES = 512  # of each arrangement for the indices
+
+
+def study_report(study: Study, source: Source, command: str) -> tuple[Document, list[str]]:
+    """Return the document on a study, which is solved here, and its warnings."""
+    points, data = points_of(study), sweep(study)
+    found = summary(points, data)
+    told = [
+        f"{counted(each['cases'], 'case')} failed: {each['text'] or each['reason']}"
+        for each in found["failures"]
+    ]
+    if found["past_buckling"]:
+        told.append(f"{counted(found['past_buckling'], 'case')} past buckling have no frequency 1")
+    sections = [
+        method_section(vehicle=True),
+        Section("The study", tuple(_study(study, found))),
+        *_titled(case_inputs(study.case)),
+        Section("Frequencies", tuple(_frequencies(study, points, data, found))),
+        *_indices(study),
+        warnings_section(told),
+        provenance_section(source, _run_facts(study, found), command),
+    ]
+    document = Document(
+        title=f"Natural vibration of {study.case.vehicle.name}: a study",
+        subtitle=study.name or counted(points.cases, "case"),
+        facts=facts(source),
+        brief=tuple(map(runs, _brief(found))),
+        sections=tuple(sections),
+        date=today(),
+    )
+    return document, told
+
+
+def _titled(sections: list[Section]) -> list[Section]:
+    return [Section("The case that varies", ()), *sections[1:]]
+
+
+def _brief(found: dict[str, Any]) -> list[str]:
+    inputs = ", ".join(each["name"].replace("_", " ") for each in found["inputs"])
+    ranges = [
+        f"{each['name']} from {number(each['least_hz'])} to {number(each['largest_hz'])} Hz"
+        for each in found["modes"][:3]
+    ]
+    return [
+        f"{counted(found['cases'], 'case')} over {inputs}; {found['failed']} failed.",
+        "; ".join(ranges)[:1].upper() + "; ".join(ranges)[1:] + "." if ranges else "",
+    ]
+
+
+def _study(study: Study, found: dict[str, Any]) -> Iterator[Block]:
+    yield paragraph(f"Design: {_DESIGNS[study.design.kind]}, {counted(found['cases'], 'case')}.")
+    rows = [
+        (f"`{each['key']}`", number(each["least"]), number(each["largest"]), each["unit"] or "-")
+        for each in found["inputs"]
+    ]
+    head = ("input", "from", "to", "unit")
+    yield table("What varies; all else is the case's.", head, rows, left=(0, 3))
+
+
+_DESIGNS = {
+    "grid": "every combination of the values",
+    "zip": "the values side by side, as in a table or a history",
+    "random": "random samples",
+    "latin_hypercube": "a Latin hypercube",
+    "sobol": "a Sobol sequence",
+    "saltelli": "samples in Saltelli's arrangement",
+}
+
+
+def _frequencies(
+    study: Study, points: Points, data: xarray.Dataset, found: dict[str, Any]
+) -> Iterator[Block]:
+    if "frequency_hz" not in data:
+        yield paragraph("The study keeps no frequencies: they are not among its outputs.")
+        return
+    tracked = "tracked_frequency_hz" in data
+    how = "Modes are followed from case to case by their shapes (MAC)." if tracked else ""
+    yield drawn("sweep", plot_sweep(study, data), f"Frequencies over the study. {how}".strip())
+    rows = [
+        [each["name"], *(number(each[key], 6) for key in ("least_hz", "mean_hz", "largest_hz"))]
+        for each in found["modes"]
+    ]
+    yield table("Ranges.", ("mode", "least [Hz]", "mean [Hz]", "largest [Hz]"), rows)
+    if study.design.kind not in _SAMPLED:
+        yield _cases(points, data, "tracked_frequency_hz" if tracked else "frequency_hz")
+
+
+def _cases(points: Points, data: xarray.Dataset, quantity: str) -> Block:
+    """Return the frequencies of all cases, or of evenly chosen ones."""
+    count = points.cases
+    chosen = np.unique(np.linspace(0, count - 1, min(count, _MOST_ROWS)).round().astype(int))
+    inputs = [(v.name, v.unit) for v in points.variables][:3]
+    names = [str(name) for name in data["mode"].values][:6]
+    head = ["case", *(_headed(*each) for each in inputs), *(f"{name} [Hz]" for name in names)]
+    hz = np.asarray(data[quantity][chosen])
+    rows = []
+    for k, case in enumerate(chosen.tolist()):
+        given = [number(float(data[name][case])) for name, _ in inputs]
+        rows.append([str(case), *given, *(number(float(v), 6) for v in hz[k, : len(names)])])
+    caption = "Tracked frequencies" if quantity.startswith("tracked") else "Frequencies"
+    if len(chosen) < count:
+        caption += f", {len(chosen)} of {count} cases"
+    return table(f"{caption}.", head, rows, left=())
+
+
+def _headed(name: str, unit: str) -> str:
+    return f"{name.replace('_', ' ')} [{unit or '-'}]"
+
+
+def _indices(study: Study) -> Iterator[Section]:
+    """Yield the section on Sobol indices of a study whose inputs are sampled."""
+    if study.design.kind not in _SAMPLED:
+        return
+    result = sensitivity(study, min(study.design.number or _MOST_SAMPLES, _MOST_SAMPLES))
+    yield Section("Uncertainty and its causes", tuple(_index_blocks(result)))
+
+
+def _index_blocks(result: SensitivityResult) -> Iterator[Block]:
+    yield paragraph(
+        f"From {counted(result.samples, 'sample')} in Saltelli's arrangement "
+        f"({counted(result.cases, 'case')}, {result.failed} failed). A total index is the share "
+        "of the variance of a frequency that an input has a part in, a first-order index the share "
+        "that it makes alone; ± is half the 95 % interval. The last column is the local "
+        "derivative at the case itself, percent for one percent."
+    )
+    bands = [
+        [m.name, *(number(v, 5) for v in (m.nominal, m.mean, m.sd, *m.band))] for m in result.modes
+    ]
+    head = ("mode", "the case [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to")
+    yield table("Frequencies over the distributions of the inputs.", head, bands)
+    rows = [row for m in result.modes for row in _index_rows(result, m)]
+    yield table("Sobol indices.", _INDEX_HEAD, rows, left=(0, 1))
+
+
+_INDEX_HEAD = ("mode", "input", "total", "±", "first", "±", "% per %")
+
+
+def _index_rows(result: SensitivityResult, mode: Any) -> Iterator[list[str]]:
+    for place, k in enumerate(np.argsort(-np.nan_to_num(mode.indices.total)).tolist()):
+        i = mode.indices
+        halves = [float(np.ptp(band[k])) / 2 for band in (i.total_band, i.first_band)]
+        yield [
+            "" if place else mode.name,
+            result.inputs[k].replace("_", " "),
+            f"{i.total[k]:.3f}",
+            f"{halves[0]:.3f}",
+            f"{i.first[k]:.3f}".replace("-", "−"),
+            f"{halves[1]:.3f}",
+            percent(float(mode.elasticity[k]) / 100),
+        ]
+
+
+def _run_facts(study: Study, found: dict[str, Any]) -> dict[str, str]:
+    return {
+        "method": "Riccati transfer matrices, many cases side by side",
+        "tolerance": f"{number(study.solve.tolerance)} of a frequency",
+        "cases": f"{found['cases']}, {found['failed']} failed",
+        "seed of the samples": str(study.design.seed),
+    }
