@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .case import Case, load_case
     from .condition import OperatingCondition, Water
     from .errors import AntinodeError, ComputationError, InputError
+    from .frequencies import Frequencies, natural_frequencies
     from .loads import Loads, compute_loads
     from .model import Model
     from .modes import solve_modes
@@ -47,6 +48,8 @@ _HOME = {
     "AntinodeError": "errors",
     "ComputationError": "errors",
     "InputError": "errors",
+    "Frequencies": "frequencies",
+    "natural_frequencies": "frequencies",
     "Loads": "loads",
     "compute_loads": "loads",
     "Model": "model",
@@ -79,6 +82,7 @@ __all__ = [
     "ComputationError",
     "Ends",
     "FinSet",
+    "Frequencies",
     "Identification",
     "IdentificationProblem",
     "InputError",
@@ -98,6 +102,7 @@ __all__ = [
     "load_case",
     "load_identification",
     "load_study",
+    "natural_frequencies",
     "open_store",
     "sensitivity",
     "solve_many",

@@ -9,13 +9,7 @@ index. Each beam starts from the roots of the one before, so that a sweep is bes
 
 from __future__ import annotations
 
-import sys
-import tempfile
-import threading
-import time
 from dataclasses import dataclass, field
-from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -23,7 +17,9 @@ import numpy.typing as npt
 
 from .beam import Ends
 from .errors import InputError
+from .kernel import kernel as compiled_kernel
 from .riccati.chain import Chain
+from .riccati.loads import guess_omega2
 from .riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
 from .riccati.shapes import mode_energies, mode_states
 
@@ -76,6 +72,7 @@ class BeamBatch:
     axial_force: Array = field(default_factory=lambda: np.zeros(1))
     ends: Ends = _FREE
     modes: int = 6
+    _one_structure: bool = field(default=False, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         if not 1 <= self.modes <= 500:
@@ -89,6 +86,8 @@ class BeamBatch:
                 "the arrays of a batch have shapes (segments,) or (beams, segments); "
                 f"received {told}"
             ) from None
+        most = max(len(np.atleast_2d(getattr(self, name))) for name in _ARRAYS[:3])
+        object.__setattr__(self, "_one_structure", most == 1)
         for name in _ARRAYS:
             own = np.atleast_2d(np.asarray(getattr(self, name), dtype=float))
             rows = len(own) if name == "length" else beams
@@ -166,16 +165,12 @@ def solve_many(batch: BeamBatch) -> BatchResult:
     BatchResult
         A beam that fails has NaN and a reason; the others are not touched by it.
     """
-    kernel = _compiled_kernel()
+    kernel = compiled_kernel()
     beams, modes = len(batch), batch.modes
     omega2, low, high, rounding = (np.full((beams, modes), np.nan) for _ in range(4))
     counts = np.zeros((beams, modes, 2), dtype=np.int64)
-    ends = np.array([kernel.ENDS[batch.ends.left], kernel.ENDS[batch.ends.right]])
-    reason, evaluations = kernel.solve_chains(
-        *(batch.length, batch.mass_per_length, batch.bending_stiffness, batch.axial_force),
-        *(ends, _rigid_modes(batch.ends), _WIDTH, (omega2, low, high, counts, rounding)),
-    )
-    rounding = np.fmax(rounding, _rounding(batch, omega2))
+    results = omega2, low, high, counts, rounding
+    reason, evaluations = _solve(kernel, batch, results)
     for row in np.flatnonzero(reason == _CLUSTERED):
         reason[row] = _part(batch, int(row), (omega2, low, high, rounding), counts)
     low, high = low - rounding, high + rounding
@@ -187,9 +182,60 @@ def solve_many(batch: BeamBatch) -> BatchResult:
     return BatchResult(omega2, np.stack([low, high], axis=-1), counts, error, reason, evaluations)
 
 
+def _solve(
+    kernel: Any, batch: BeamBatch, results: tuple[Array, Array, Array, Integers, Array]
+) -> tuple[Integers, Integers]:
+    """Solve chain after chain; where loads alone vary, by guesses from a few of them."""
+    tables = batch.length, batch.mass_per_length, batch.bending_stiffness
+    ends = np.array([kernel.ENDS[batch.ends.left], kernel.ENDS[batch.ends.right]])
+    below = rigid_modes_of(batch.ends)
+    guess = None
+    if batch._one_structure:
+        guess = guess_omega2(batch.axial_force, lambda N: _exact(batch, N))
+    if guess is None:
+        return _all_rows(kernel, tables, batch.axial_force, ends, below, results)
+    own = tuple(values[0] for values in tables)
+    reason, total = kernel.certify_guesses(
+        own, batch.axial_force, ends, below, _WIDTH, guess, results
+    )
+    again = np.flatnonzero((reason != 0) & (reason != _CLUSTERED))
+    if len(again):
+        part = tuple(values[again] for values in results)
+        rest = (values[:1] if len(values) == 1 else values[again] for values in tables)
+        reason[again], more = _all_rows(
+            kernel, tuple(rest), batch.axial_force[again], ends, below, part
+        )
+        total[again] += more
+        for values, found in zip(results, part, strict=True):
+            values[again] = found
+    return reason, total
+
+
+def _all_rows(
+    kernel: Any,
+    tables: tuple[Array, ...],
+    force: Array,
+    ends: Integers,
+    below: int,
+    results: tuple[Any, ...],
+) -> tuple[Integers, Integers]:
+    for table in (*tables, force):
+        table.flags.writeable = False  # as the kernel was compiled
+    reason, total = kernel.solve_chains(*tables, force, ends, below, _WIDTH, results)
+    return reason, total
+
+
+def _exact(batch: BeamBatch, force: Array) -> Array:
+    """Return omega^2 of the batch's structure under other forces, NaN where it is not certain."""
+    h, m, EI = batch.length[0], batch.mass_per_length[0], batch.bending_stiffness[0]
+    some = BeamBatch(h, m, EI, force, batch.ends, batch.modes)
+    object.__setattr__(some, "_one_structure", False)
+    return solve_many(some).omega2
+
+
 def _part(batch: BeamBatch, row: int, results: tuple[Array, ...], counts: Integers) -> int:
     """Solve a beam whose modes nearly coincide by frames, which part them; return the reason."""
-    below = _rigid_modes(batch.ends)
+    below = rigid_modes_of(batch.ends)
     h = batch.length[row if len(batch.length) > 1 else 0]
     m, EI, N = (getattr(batch, name)[row] for name in _ARRAYS[1:])
     chain = Chain(h, m, EI, N, batch.ends.left, batch.ends.right)
@@ -205,7 +251,7 @@ def _part(batch: BeamBatch, row: int, results: tuple[Array, ...], counts: Intege
         return _CLUSTERED
     columns = [v.omega2 for v in wanted], *zip(*(v.bracket for v in wanted), strict=True), rounding
     for values, column in zip(results, columns, strict=True):
-        values[row] = column
+        values[row] = np.array(column)
     counts[row] = [v.counts for v in wanted]
     return 0
 
@@ -227,72 +273,8 @@ def _share(low: Array, high: Array, counts: Integers) -> None:
             counts[row, group] = counts[row, group, 0].min(), counts[row, group, 1].max()
 
 
-def _rigid_modes(ends: Ends) -> int:
+def rigid_modes_of(ends: Ends) -> int:
     """Return how many rigid modes the ends leave: the index of the last one."""
     held = [end in ("clamped", "pinned") for end in (ends.left, ends.right)]
     turned = [end in ("clamped", "sliding") for end in (ends.left, ends.right)]
     return 2 - min(2, sum(held) + any(turned))
-
-
-def _rounding(batch: BeamBatch, omega2: Array) -> Array:
-    """Estimate the rounding of omega^2: small against what elasticity and axial force add to it."""
-    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
-        EI, m = (np.mean(v, axis=1) for v in (batch.bending_stiffness, batch.mass_per_length))
-        N = np.max(np.abs(batch.axial_force), axis=1)[:, None]
-        b, c = N / (2 * EI[:, None]), np.abs(omega2) * (m / EI)[:, None]
-        wave = b + np.sqrt(b * b + c)
-        return np.asarray(_ROUNDING * (np.abs(omega2) + 2 * N * wave / m[:, None]))
-
-
-# --- the compiled kernel ----------------------------------------------------------------------
-
-_kernel: list[ModuleType] = []
-
-
-def _compiled_kernel() -> ModuleType:
-    """Import the kernel and have it compiled, or taken from numba's cache, once a process."""
-    if not _kernel:
-        _kernel.append(_prepare())
-    return _kernel[0]
-
-
-def _prepare() -> ModuleType:
-    """Compile on a small chain, and tell on stderr if it takes long."""
-    start = time.perf_counter()
-    notice = threading.Timer(2.0, _say, ["compiling the batch kernel, once; some 20 s"])
-    notice.daemon = True
-    notice.start()
-    try:
-        lanes = _import_kernel()
-        one = np.ones((1, 1))
-        one.flags.writeable = False
-        out = [np.zeros((1, 1)) for _ in range(4)]
-        counts = np.zeros((1, 1, 2), dtype=np.int64)
-        lanes.solve_chains(
-            *(one, one, one, one, np.array([0, 0]), 2, _WIDTH, (*out[:3], counts, out[3]))
-        )
-    finally:
-        notice.cancel()
-    if lanes.compiled_here():
-        _say(f"compiled the batch kernel in {time.perf_counter() - start:.1f} s")
-    return lanes
-
-
-def _import_kernel() -> ModuleType:
-    """Import the kernel; keep its cache in a temporary folder if numba finds no other place."""
-    try:
-        from .riccati import lanes
-    except RuntimeError as error:
-        if "cannot cache" not in str(error):
-            raise
-        from numba import config
-
-        settings: Any = config
-        settings.CACHE_DIR = str(Path(tempfile.gettempdir()) / "antinode-numba")
-        from .riccati import lanes
-    return lanes
-
-
-def _say(text: str) -> None:
-    sys.stderr.write(f"antinode: {text}\n")
-    sys.stderr.flush()

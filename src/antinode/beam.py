@@ -34,6 +34,8 @@ _NEAR, _FAR = 0.5 + np.sqrt(3) / 3, 0.5 - np.sqrt(3) / 3
 _STEEPEST = 4.0  # ratio of a property across one step (averages stay positive up to 13.9)
 _LONGEST = 1 / 16  # share of one step in the waves along the beam
 _MOST_HALVINGS = 40
+LIMITS = _STEEPEST, _LONGEST, _MOST_HALVINGS
+"""What the coarsest steps keep to: `riccati.halves` makes the same ones."""
 
 
 @dataclass(frozen=True)
@@ -159,7 +161,9 @@ class Beam:
             column = np.broadcast_to(np.asarray(values, dtype=float), _row_shape(values, stations))
             if interpolation == "step":
                 return np.repeat(column[:intervals, None], 2, axis=1)
-            return np.stack([column[:-1], column[1:]], axis=1)
+            table = np.empty((intervals, 2))
+            table[:, 0], table[:, 1] = column[:-1], column[1:]
+            return table
 
         m, EI, EA, N, r = (
             between(v)
@@ -313,8 +317,10 @@ class Beam:
             tables.append(_given(self.axial_stiffness))
             return np.asarray(np.any([t[:, 0] != t[:, 1] for t in tables], axis=0))
         tables += [self.bending_stiffness, self.axial_force]
-        varying = np.any([t[:, 0] != t[:, 1] for t in tables], axis=0)
-        return np.asarray(varying | (self.axial_acceleration != 0.0))
+        varying = np.full(len(self.x) - 1, self.axial_acceleration != 0.0)
+        for table in tables:
+            varying |= table[:, 0] != table[:, 1]
+        return varying
 
     def chain(self, family: Family, refinement: int = 1) -> Chain:
         """Represent the beam by uniform segments for one family of modes.
@@ -509,6 +515,8 @@ def _check_table(name: str, values: Array, n: int) -> None:
     if values.shape != (n, 2):
         raise InputError(f"{name} has shape {values.shape}; {n} intervals need shape ({n}, 2)")
     ok = np.isfinite(values) if name == "axial_force" else np.isfinite(values) & (values > 0)
+    if ok.all():
+        return
     for row, side in np.argwhere(~ok)[:1]:
         allowed = "finite" if name == "axial_force" else "positive and finite"
         raise InputError(f"{name} must be {allowed}: interval {row + 1} has {values[row, side]:g}")

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from .beam import Beam
 from .errors import ComputationError, InputError
+from .kernel import kernel_if_worthwhile
 from .limits import out_of_range_is_an_error
 from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .riccati.chain import Chain, Family, omega2_scale
@@ -209,7 +210,12 @@ def _certified(
     chain: Chain, wanted: int, zeros: int, expected: Array | None = None
 ) -> list[Eigenvalue]:
     width = 1e-10 if len(chain.length) <= 1000 else 2e-10
+    compiled = kernel_if_worthwhile(len(chain.length), wanted)
     try:
+        if compiled is not None:
+            fast = compiled.find_eigenvalues(chain, wanted, zeros=zeros, width=width)
+            if fast is not None and check_certificate(fast):
+                return list(fast)
         found = find_eigenvalues(chain, wanted, zeros=zeros, width=width, expected=expected)
     except (CountingError, FloatingPointError) as error:
         raise ComputationError(

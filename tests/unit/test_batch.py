@@ -53,6 +53,33 @@ def test_certificates_and_brackets():
     assert np.all(result.error_hz < 2e-10 * result.frequencies_hz)
 
 
+@pytest.mark.parametrize("loads", [1, 2, 3])
+def test_loads_alone_vary(loads):
+    """Guesses between a few solves hold in every case; the answers are those of full solves."""
+    rng, n = np.random.default_rng(loads), 30
+    h, m, EI = np.full(n, 0.1), rng.uniform(1, 3, n), rng.uniform(1e3, 3e3, n)
+    N = rng.uniform(-1, 1, (1600, loads)) @ rng.uniform(0, 700, (loads, n))
+    fast = an.solve_many(an.BeamBatch(h, m, EI, N, modes=4))
+    full = an.solve_many(an.BeamBatch(h, np.repeat(m[None], 1600, 0), EI, N, modes=4))
+    solved = np.isfinite(full.omega2).all(axis=1)
+    assert np.sum(solved) > 1500
+    assert fast.omega2[solved] == pytest.approx(full.omega2[solved], rel=1e-11)
+    assert np.array_equal(fast.counts[solved], full.counts[solved])
+    assert np.all(fast.bracket_omega2[solved, :, 0] <= full.omega2[solved])
+    assert np.all(full.omega2[solved] <= fast.bracket_omega2[solved, :, 1])
+    if loads < 3:
+        assert np.mean(fast.evaluations == 8) > 0.9
+
+
+def test_a_load_that_is_no_number_touches_no_other():
+    one = np.ones(8)
+    N = np.linspace(0, 5, 200)[:, None] * one
+    N[77, 3] = np.nan
+    result = an.solve_many(an.BeamBatch(one / 8, one, one, N, modes=2))
+    assert np.flatnonzero(result.reason).tolist() == [77]
+    assert "finite" in result.why(77)
+
+
 def test_uniform_beams_have_their_closed_form():
     """Free-free, lambda L = 4.73004074486, 7.85320462410, ... and omega^2 = lambda^4 EI/m."""
     EI = np.array([[1.0], [16.0], [5.0]]) * np.ones((3, 20))

@@ -37,11 +37,13 @@ RICCATI = (
     "riccati.chain",
     "riccati.roots",
     "riccati.lanes",
+    "riccati.halves",
+    "riccati.loads",
     "riccati.shapes",
     "riccati.literal",
 )
 BEAM = ("attachments", "beam", "limits", "axial")
-MODES = ("result", "modes", "batch", "buckling")
+MODES = ("result", "kernel", "modes", "batch", "frequencies", "buckling")
 READING = ("explain", "override", "files")
 INPUTS = ("attachment_tables", "beam_file", "case", "statics")
 OUTPUTS = (
@@ -201,6 +203,7 @@ MAY_IMPORT = {
 """What the modules of a group import, beside those that stand before them in the group."""
 
 HEAVY = (
+    "numba",
     "matplotlib",
     "xarray",
     "scipy",

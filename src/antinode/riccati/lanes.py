@@ -22,7 +22,8 @@ code by the date of one file: all that is compiled together stands here.
 from __future__ import annotations
 
 import math
-from typing import Any
+import threading
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
@@ -30,8 +31,9 @@ import numpy.typing as npt
 from numba.core import types
 from numba.extending import intrinsic
 
-from .chain import Chain, Evaluation
+from .chain import Chain, Evaluation, omega2_scale
 from .chain import evaluate as evaluate_readable
+from .roots import Eigenvalue
 
 Array = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
@@ -44,6 +46,7 @@ _IN_C, _IN_N = 4, 9  # terms of the series in c and in n
 _ROWS = 24  # of the table of pieces: 16 coefficients, n, 2c/omega^2, 4 ratios of units, h, 1/EI
 _RESCALE = 128  # pieces after which the lanes are scaled
 _HUGE = 4e6  # pieces
+_KEPT = 16  # sizes of chains whose arrays a thread keeps
 _SMALL = 1e-60  # of the minors, or 1 over it: what lies between is not scaled
 
 
@@ -105,7 +108,6 @@ def _pieces(h, m, EI, N, omega2, starts):
 @_compiled
 def _fill(h, m, EI, N, starts, marks, table):
     """Fill the table: one column a piece."""
-    _wide_vectors()
     previous_h, previous_f = 1.0, 1.0
     for k in range(len(h)):
         pieces = starts[k + 1] - starts[k]
@@ -120,7 +122,13 @@ def _fill(h, m, EI, N, starts, marks, table):
             table[20, i], table[21, i] = r * r * r * s, r * r * r * r * s * s
             table[22, i], table[23, i] = size, f
             previous_h, previous_f = size, f
-    last = starts[len(h)]
+    _fill_series(table, starts[len(h)])
+
+
+@_compiled
+def _fill_series(table, last):
+    """Fill the coefficients of the series, which follow from n."""
+    _wide_vectors()
     for g in range(4):
         for j in range(_IN_C):
             row = table[4 * g + j]
@@ -132,6 +140,15 @@ def _fill(h, m, EI, N, starts, marks, table):
                 row[i] = t0 + x * (
                     t1 + x * (t2 + x * (t3 + x * (t4 + x * (t5 + x * (t6 + x * (t7 + x * t8))))))
                 )
+
+
+@_compiled
+def _fill_force(N, starts, table):
+    """Fill what depends on the axial force, for a chain whose other numbers stand in the table."""
+    for k in range(len(N)):
+        for i in range(starts[k], starts[k + 1]):
+            table[16, i] = N[k] * (table[22, i] * table[22, i] * table[23, i])
+    _fill_series(table, starts[len(N)])
 
 
 # --- one pass of eight lanes ------------------------------------------------------------------
@@ -404,28 +421,20 @@ _NEIGHBOURS = 4  # roots on each side that are divided out
 
 
 @_compiled
-def _phase(h, m, EI, N, omega2):
-    """Return the integral of the oscillating wave number (equation 51)."""
-    total = 0.0
-    for k in range(len(h)):
-        b = N[k] / EI[k] / 2
-        total += h[k] * math.sqrt(max(b + math.sqrt(b * b + m[k] * omega2 / EI[k]), 0.0))
-    return total
-
-
-@_compiled
 def _first_samples(h, m, EI, N, number, samples):
-    """Set samples between the roots that a slowly varying chain would have, and one below 0."""
-    low, found = 1e-3, 0
-    before = _phase(h, m, EI, N, low)
-    while found < number:
-        high = 1.6 * low
-        after = _phase(h, m, EI, N, high)
-        while found < number and after >= (0.25 + 0.5 * found) * math.pi:
-            share = ((0.25 + 0.5 * found) * math.pi - before) / (after - before)
-            samples[found] = low * 1.6 ** max(share, -1.0 / (found + 1))
-            found += 1
-        low, before = high, after
+    """Set samples between the roots that a slowly varying chain would have, and one below 0.
+
+    The phase integral of the oscillating wave number (equation 51) with one mean N/EI for all.
+    """
+    phase, load = 0.0, 0.0
+    for k in range(len(h)):
+        root = math.sqrt(m[k] / EI[k])
+        own = h[k] * math.sqrt(root)
+        phase += own
+        load += own * N[k] / (EI[k] * root)
+    for i in range(number):
+        square = ((0.25 + 0.5 * i) * math.pi / phase) ** 2
+        samples[i] = max(square * (square - load / phase), 0.01 * square * square)
     samples[number] = -1.0
     return number + 1
 
@@ -630,6 +639,13 @@ def _rounding(samples, at, right, force):
 
 
 @_compiled
+def _cancelling(omega2, force):
+    """Estimate the rounding of omega^2 that is small against what EI and N add to it."""
+    wave = force / 2.0 + math.sqrt(force * force / 4.0 + abs(omega2))
+    return _EPSILON * (abs(omega2) + 2.0 * force * wave)
+
+
+@_compiled
 def _watch(low, high, before, stuck, root, centre):
     """Notice brackets that do not halve; start roots in the middle of theirs where asked."""
     for k in range(len(root)):
@@ -645,26 +661,35 @@ def _watch(low, high, before, stuck, root, centre):
 
 @_compiled
 def _solve(
-    h, m, EI, N, ends, below, warm, root, slope, width, low, high, counts, rounding, table, work
-):
+    h, m, EI, N, ends, below, warm, root, slope, width, low, high, counts, rounding, table, work,
+    reach,
+):  # fmt: skip
     """Bracket and certify the eigenvalues below + 1 ... below + len(root) of one chain.
 
     `root` holds guesses if `warm`, `slope` those of `_slopes`; both are set for the next chain.
+    If the table is filled up to some omega^2 = `reach` > 0, the guesses are taken for exact: the
+    first samples are those that certify them.
     Returns the reason, and the number of samples, or that of the table's columns needed.
     """
     samples, asked, owner, starts, marks, points, state, sign, value, before = work[:10]
     stuck, at, own, near, x, y, wanted = work[10:]
-    total, reach, number = 0, 0.0, len(root)
+    total, number = 0, len(root)
     for k in range(number):
         asked[k], owner[k], before[k], stuck[k] = root[k], k, np.inf, 0
         low[k], high[k] = -np.inf, np.inf
         own[k, 0] = own[k, 1] = own[k, 2] = own[k, 3] = -1
     if not warm:
-        number = _first_samples(h, m, EI, N, 2 * (below + number + 1), asked)
+        number = _first_samples(h, m, EI, N, 2 * (max(below - 2, 0) + number) + 3, asked)
         for k in range(number):
             owner[k] = -1
         for k in range(len(root)):
             slope[k] = 0.0
+    elif reach > 0.0:
+        number = 2 * len(root)
+        for k in range(len(root)):
+            size = _MARGIN * width * abs(root[k])
+            asked[2 * k], asked[2 * k + 1] = root[k] - size, root[k] + size
+            owner[2 * k] = owner[2 * k + 1] = k
     for turn in range(_MOST_PASSES):
         if total + number > samples.shape[1]:
             break
@@ -705,13 +730,15 @@ def _solve(
         if number == 0:
             for k in range(len(root)):
                 root[k] = _between(samples, at[k], root[k])
+                root[k] = min(max(root[k], low[k]), high[k])
             _slopes(samples, total, root, below, slope, near)
-            force, sure = 0.0, True
+            force, most, sure = 0.0, 0.0, True
             for i in range(len(h)):
-                force += abs(N[i]) * h[i]
+                force, most = force + abs(N[i]) * h[i], max(most, abs(N[i]))
             for k in range(len(root)):
                 rounding[k] = _rounding(samples, at[k], ends[1], force)
                 sure = sure and rounding[k] <= _SURE * width * abs(root[k])
+                rounding[k] = max(rounding[k], _cancelling(root[k], most))
             return CERTIFIED if sure else CLUSTERED, total
     return NOT_BRACKETED, total
 
@@ -763,6 +790,18 @@ def _dimensionless(h, m, EI, N, own):
 
 
 @_compiled
+def _scale(own):
+    """Make the rows h, m, EI, N of a chain dimensionless; return length, mean m and mean EI."""
+    L, m0, EI0, n = 0.0, 0.0, 0.0, own.shape[1]
+    for k in range(n):
+        L, m0, EI0 = L + own[0, k], m0 + own[1, k] / n, EI0 + own[2, k] / n
+    for k in range(n):
+        own[0, k], own[1, k] = own[0, k] / L, own[1, k] / m0
+        own[2, k], own[3, k] = own[2, k] / EI0, own[3, k] * (L * L / EI0)
+    return L, m0, EI0
+
+
+@_compiled
 def _solve_rows(
     length, mass, stiffness, force, ends, below, width, first, warm, current, slope, own, table,
     work, root, low, high, counts, rounding, reason, total
@@ -777,7 +816,7 @@ def _solve_rows(
         for _attempt in range(2):
             reason[b], more = _solve(
                 *(own[0], own[1], own[2], own[3], ends, below, warm[0], current, slope),
-                *(width, low[b], high[b], counts[b], rounding[b], table, work),
+                *(width, low[b], high[b], counts[b], rounding[b], table, work, 0.0),
             )
             if reason[b] == TABLE_TOO_SMALL:
                 return b, more
@@ -844,6 +883,249 @@ def solve_chains(
     return reason, total
 
 
+@_compiled
+def _solve_guessed(
+    own, force, ends, below, width, guess, root, low, high, counts, rounding, reason, total,
+    table, work, most, slope,
+):  # fmt: skip
+    """Certify the guesses for chains that differ in axial force alone; refine those that fail."""
+    L, m0, EI0 = _scale(own)
+    unit, pull = EI0 / (m0 * L * L * L * L), L * L / EI0
+    starts, marks, reach, n = work[3], work[4], 0.0, own.shape[1]
+    for b in range(len(force)):
+        outside, highest, finite = reach == 0.0, 0.0, True
+        for k in range(n):
+            N = force[b, k] * pull
+            own[3, k] = N
+            outside = outside or abs(N) > most[k]
+            finite = finite and abs(N) < np.inf
+        for k in range(root.shape[1]):
+            root[b, k] = guess[b, k] / unit
+            highest = max(highest, abs(root[b, k]))
+            finite = finite and abs(root[b, k]) < np.inf
+            slope[k] = 0.0
+        if not finite:
+            reason[b] = NOT_FINITE
+            continue
+        if outside or highest * (1.0 + width) > reach:
+            reach = 1.2 * highest
+            for k in range(n):
+                most[k] = max(most[k], 1.1 * abs(own[3, k]))
+            pieces = _pieces(own[0], own[1], own[2], most, reach, starts)
+            if pieces < 0 or pieces > table.shape[1]:
+                reason[b], reach = NOT_BRACKETED, 0.0
+                continue
+            _fill(own[0], own[1], own[2], own[3], starts, marks, table)
+        else:
+            _fill_force(own[3], starts, table)
+        reason[b], more = _solve(
+            *(own[0], own[1], own[2], own[3], ends, below, True, root[b], slope, width),
+            *(low[b], high[b], counts[b], rounding[b], table, work, reach),
+        )
+        total[b] += more
+        if more > 2 * root.shape[1]:
+            reach = 0.0
+        for k in range(root.shape[1]):
+            root[b, k] *= unit
+            low[b, k], high[b, k] = unit * low[b, k], unit * high[b, k]
+            rounding[b, k] *= unit
+
+
+def certify_guesses(
+    chain: tuple[Array, Array, Array],
+    force: Array,
+    ends: Integers,
+    below: int,
+    width: float,
+    guess: Array,
+    results: tuple[Array, Array, Array, Integers, Array],
+) -> tuple[Integers, Integers]:
+    """Certify guesses for chains of one structure under many axial forces.
+
+    Parameters
+    ----------
+    chain : tuple of array, shape (n,)
+        Length, mass and stiffness of all.
+    force : array, shape (chains, n)
+    guess : array, shape (chains, roots)
+        [rad^2/s^2].
+    ends, below, width, results
+        As for `solve_chains`.
+
+    Returns
+    -------
+    reason, total : array of int, shape (chains,)
+        0 where all roots are certified, and the number of evaluations: two a root where the guess
+        held.
+    """
+    chains, n = force.shape
+    roots = guess.shape[1]
+    reason, total = np.zeros(chains, np.int64), np.zeros(chains, np.int64)
+    own = np.zeros((4, n))
+    own[0], own[1], own[2] = chain
+    _solve_guessed(
+        *(own, force, ends, below, width, guess, *results, reason, total),
+        *(_scratch.table(n + 64), _scratch.work(n, roots), np.zeros(n), np.zeros(roots)),
+    )
+    return reason, total
+
+
+class Roots(NamedTuple):
+    """Consecutive eigenvalues of one chain, each with its certificate, and how they were found."""
+
+    reason: int
+    omega2: Array
+    low: Array
+    high: Array
+    counts: Integers
+    rounding: Array
+    slope: Array
+    """Of the divided characteristic function: a start for a chain that resembles this one."""
+    evaluations: int
+
+
+class SingleChain:
+    """One chain made dimensionless, ready for evaluations and root searches.
+
+    Parameters
+    ----------
+    chain : Chain
+        Of the bending family, without supports in `points` at its two ends.
+    """
+
+    def __init__(self, chain: Chain) -> None:
+        own = np.empty((4, len(chain.length)))
+        own[0], own[1] = chain.length, chain.mass
+        own[2], own[3] = chain.stiffness, chain.axial_force
+        L, m0, EI0 = _scale(own)
+        self.own, self.unit = own, EI0 / (m0 * L**4)
+        self.left, self.right = ENDS[chain.left], ENDS[chain.right]
+        self.points: tuple[Integers, Array] | None = None
+        if chain.points:
+            self.points = _point_table(chain, L, EI0, m0)
+
+    def _work(self, roots: int) -> tuple[Any, ...]:
+        work = _scratch.work(self.own.shape[1], roots)
+        return work if self.points is None else (*work[:4], *self.points, *work[6:])
+
+    def count(self, omega2: Array) -> Integers:
+        """Return how many eigenvalues lie below each omega^2 [rad^2/s^2]."""
+        scaled, work = omega2 / self.unit, self._work(1)
+        pieces = _pieces(*self.own, float(np.max(np.abs(scaled))), work[3])
+        if pieces < 0:
+            raise FloatingPointError("omega^2 is out of reach for this chain")
+        table = _scratch.table(pieces)
+        _fill(*self.own, work[3], work[4], table)
+        count, value = np.empty(len(scaled), np.int64), np.empty(len(scaled))
+        _evaluate(table, *work[3:6], self.left, self.right, scaled, *work[6:9], count, value)
+        return count
+
+    def roots(self, below: int, number: int, width: float, start: Roots | None = None) -> Roots:
+        """Bracket and certify eigenvalues below + 1 ... below + number.
+
+        Parameters
+        ----------
+        width : float
+            Relative width of the brackets in omega^2.
+        start : Roots, optional
+            As many of a chain that resembles this one, to start from.
+        """
+        work, ends = self._work(number), np.array([self.left, self.right])
+        values, counts = np.zeros((5, number)), np.zeros((number, 2), np.int64)
+        root, slope, low, high, rounding = values
+        warm, total, columns = start is not None, 0, self.own.shape[1] + 8
+        if start is not None:
+            root[:], slope[:] = start.omega2 / self.unit, start.slope
+        while True:
+            reason, more = _solve(
+                *(*self.own, ends, below, warm, root, slope, width, low, high, counts, rounding),
+                *(_scratch.table(columns), work, 0.0),
+            )
+            if reason == TABLE_TOO_SMALL:
+                columns, warm = more, False
+                continue
+            total += more
+            if reason in (CERTIFIED, CLUSTERED) or not warm:
+                break
+            warm = False
+        kept = slope.copy()
+        values *= self.unit
+        return Roots(reason, root, low, high, counts, rounding, kept, total)
+
+
+class _Scratch(threading.local):
+    """Arrays that root searches of one thread write into, kept from one to the next."""
+
+    def __init__(self) -> None:
+        self.kept: dict[tuple[int, int], tuple[Any, ...]] = {}
+        self.columns = np.empty((_ROWS, 0))
+
+    def work(self, n: int, roots: int) -> tuple[Any, ...]:
+        if (n, roots) not in self.kept:
+            if len(self.kept) == _KEPT:
+                self.kept.clear()
+            self.kept[n, roots] = _workspace(n, roots)
+        return self.kept[n, roots]
+
+    def table(self, columns: int) -> Array:
+        if self.columns.shape[1] < columns:
+            self.columns = np.empty((_ROWS, columns + columns // 2))
+        return self.columns
+
+
+_scratch = _Scratch()
+
+
+def find_eigenvalues(
+    chain: Chain, wanted: int, *, zeros: int = 0, width: float = 1e-10
+) -> list[Eigenvalue] | None:
+    """Return the lowest eigenvalues of a chain as `riccati.roots.find_eigenvalues` does.
+
+    None where determinants do not do: longitudinally, at springs or supports of the ends, and
+    for modes that nearly coincide; the frames do there.
+    """
+    n = len(chain.length)
+    if chain.family != "bending" or any(p.holds and p.node in (0, n) for p in chain.points):
+        return None
+    ready = SingleChain(chain)
+    floor = _floor(ready, omega2_scale(chain), zeros)
+    if floor is None:
+        return None
+    distance, negative = floor
+    found: list[Eigenvalue] = []
+    parts = [(0, negative), (negative + zeros, max(wanted - negative - zeros, 0))]
+    for below, number in parts:
+        if below and zeros:
+            counts = (negative, below)
+            found += [Eigenvalue(k + 1, 0.0, (-distance, distance), counts) for k in range(*counts)]
+        if number:
+            roots = ready.roots(below, number, width)
+            if roots.reason != CERTIFIED:
+                return None
+            found += _listed(roots, below)
+    return found
+
+
+def _floor(ready: SingleChain, scale: float, zeros: int) -> tuple[float, int] | None:
+    """Return the least distance from zero at which the counts make sense, and the lower count."""
+    floors = scale * 10.0 ** np.arange(-16, -12)
+    count = ready.count(np.concatenate([-floors, floors]))
+    if not zeros:
+        return (0.0, int(count[4])) if count[0] == count[4] else None
+    for floor, low, high in zip(floors, count[:4], count[4:], strict=True):
+        if high - low >= zeros:
+            return (float(floor), int(low)) if high - low == zeros else None
+    return None
+
+
+def _listed(roots: Roots, below: int) -> list[Eigenvalue]:
+    columns = (values.tolist() for values in roots[1:5])
+    return [
+        Eigenvalue(below + k + 1, omega2, (low, high), (counts[0], counts[1]))
+        for k, (omega2, low, high, counts) in enumerate(zip(*columns, strict=True))
+    ]
+
+
 def compiled_here() -> bool:
     """Tell whether this process had to compile the kernel: it was not in numba's cache."""
-    return bool(_solve_rows.stats.cache_misses)
+    return bool(_solve_rows.stats.cache_misses or _solve.stats.cache_misses)

@@ -1,0 +1,123 @@
+"""Frequencies without shapes: compiled and in numpy, against full solves and hp elements."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import antinode as an
+import hp_beam
+from antinode import kernel
+from antinode.attachments import PointMass, Spring
+from antinode.frequencies import _Chains
+
+ENDS = ("free", "clamped", "pinned", "sliding")
+
+
+@pytest.fixture
+def compiled():
+    kernel.kernel()
+
+
+@pytest.fixture
+def in_numpy(monkeypatch):
+    monkeypatch.setattr(kernel, "_ready", [])
+
+
+def steep(seed, ends=None):
+    """Log-linear between eight stations, m and EI over a decade, under compression."""
+    rng, x = np.random.default_rng(seed), np.linspace(0, 6, 8)
+    m, EI = (300 * np.exp(0.5 * rng.standard_normal(8)) * scale for scale in (1, 1e3))
+    N = rng.uniform(2e3, 9e3) * (1 + x)
+    return an.Beam.from_stations(x, m, EI, None, N, interpolation="log", ends=ends)
+
+
+def stepped(ends=None):
+    rng = np.random.default_rng(3)
+    m, EI, N = rng.uniform(1, 3, 30), rng.uniform(1e3, 3e3, 30), rng.uniform(-50, 90, 30)
+    return an.Beam.from_stations(np.linspace(0, 3, 31), m, EI, None, N, ends=ends)
+
+
+@pytest.mark.usefixtures("compiled")
+@pytest.mark.parametrize("left", ENDS)
+@pytest.mark.parametrize("right", ENDS)
+def test_frequencies_are_those_of_the_modes(left, right):
+    beam = stepped(an.Ends(left, right))
+    fast, full = an.natural_frequencies(beam, 5), an.solve_modes(beam, 5)
+    modes = [mode for mode in full.modes if mode.number]
+    assert fast.omega2 == pytest.approx([mode.omega2 for mode in modes], rel=1e-10)
+    assert fast.counts.tolist() == [list(mode.counts) for mode in modes]
+    assert fast.frequencies_hz == pytest.approx(full.frequencies_hz(), rel=1e-10)
+    low, high = fast.bracket_omega2.T
+    assert np.all((low <= fast.omega2) & (fast.omega2 <= high))
+    assert np.all(fast.error_hz < 2e-10 * fast.frequencies_hz)
+
+
+@pytest.mark.usefixtures("compiled")
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-7])
+@pytest.mark.parametrize("seed", range(4))
+def test_smooth_beams_keep_their_error(seed, tolerance):
+    beam = steep(seed)
+    exact = hp_beam.eigenvalues(beam, 8)[2:]
+    result = an.natural_frequencies(beam, 6, tolerance=tolerance)
+    assert np.all(np.abs(result.omega2 - exact) <= result.error_omega2)
+    assert np.all(result.error_omega2 <= 2.01 * tolerance * exact)
+
+
+@pytest.mark.usefixtures("in_numpy")
+def test_numpy_gives_the_same():
+    result = an.natural_frequencies(steep(1), 4)
+    assert kernel._ready == []
+    kernel.kernel()
+    again = an.natural_frequencies(steep(1), 4)
+    assert np.all(np.abs(again.omega2 - result.omega2) <= result.error_omega2)
+
+
+@pytest.mark.usefixtures("compiled")
+@pytest.mark.parametrize("refinement", [1, 3])
+def test_compiled_halves_are_those_of_the_beam(refinement):
+    beam = steep(2)
+    mine, own = beam.chain("bending", refinement), _Chains(beam).at(refinement)
+    for name in ("length", "mass", "stiffness", "axial_force"):
+        assert getattr(own, name) == pytest.approx(getattr(mine, name), rel=1e-14)
+
+
+@pytest.mark.usefixtures("compiled")
+def test_attachments_and_acceleration():
+    beam = steep(4, an.Ends("clamped", "free"))
+    beam = beam.with_attachments(PointMass(3.3, 40.0), Spring(2.0, 5e4))
+    fast, full = an.natural_frequencies(beam, 4), an.solve_modes(beam, 4)
+    expected = [mode.omega2 for mode in full.modes if mode.number]
+    assert fast.omega2 == pytest.approx(expected[:4], rel=4e-6)
+
+
+@pytest.mark.parametrize(("modes", "tolerance"), [(0, 1e-6), (6, 1.0)])
+def test_arguments_outside_their_range(modes, tolerance):
+    with pytest.raises(an.InputError, match="allowed"):
+        an.natural_frequencies(stepped(), modes, tolerance=tolerance)
+
+
+def test_a_single_call_loads_no_compiler():
+    code = "import sys, antinode as an\n"
+    code += "an.natural_frequencies(an.Beam.from_stations([0, 1, 2], [1.0] * 3, [1.0] * 3))\n"
+    code += "assert 'numba' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_a_cache_folder_where_the_package_is_read_only(monkeypatch, tmp_path):
+    """Numba finds no place for its cache: one is made among the temporary files."""
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    code = """
+import numba
+from numba.core import caching
+caching.CacheImpl._locator_classes = [caching.UserProvidedCacheLocator]
+from antinode.kernel import _import_kernel
+_import_kernel()
+print(numba.config.CACHE_DIR)
+"""
+    environment = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
+    command = [sys.executable, "-c", code]
+    told = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
+    assert told.stdout.strip() == str(tmp_path / "antinode-numba")
