@@ -39,6 +39,15 @@ def stepped_beam(segments):
     return an.Beam.from_stations(x, m[0], EI[0], None, N[0])
 
 
+def steep_stations(seed):
+    """A steep smooth beam: x, m, EI and N at ten stations, log-linear between them."""
+    rng, x = np.random.default_rng(seed), np.linspace(0.0, LENGTH, 10)
+    s = x / LENGTH
+    m = 330 * np.exp(-4 * (s - 0.45) ** 2 + 0.3 * rng.standard_normal(10))
+    EI = 4e5 * np.exp(-3 * (s - 0.3) ** 2 + 0.3 * rng.standard_normal(10))
+    return x, m, EI, 10e3 + 20e3 * s
+
+
 def medians(repeats, *calls):
     """Median time of each call [s]; they take turns, so that a busy machine slows all alike."""
     taken = [[] for _ in calls]

@@ -417,6 +417,7 @@ _MOST_PASSES = 100
 _EPSILON = 64 * float(np.finfo(float).eps)  # rounding of the minors, relative
 _MARGIN = 0.45  # half the distance of the certifying samples, in widths
 _SURE = 0.3  # share of a bracket that rounding may take
+_PARTED = 1e-7  # relative distance of roots below which frames part them, and their shapes
 _NEIGHBOURS = 4  # roots on each side that are divided out
 
 
@@ -1100,7 +1101,8 @@ def find_eigenvalues(
             found += [Eigenvalue(k + 1, 0.0, (-distance, distance), counts) for k in range(*counts)]
         if number:
             roots = ready.roots(below, number, width)
-            if roots.reason != CERTIFIED:
+            near = np.diff(roots.omega2) <= _PARTED * np.abs(roots.omega2[1:])
+            if roots.reason != CERTIFIED or np.any(near):
                 return None
             found += _listed(roots, below)
     return found

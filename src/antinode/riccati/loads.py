@@ -34,6 +34,8 @@ def guess_omega2(force: Array, solve: Callable[[Array], Array]) -> Array | None:
     array, shape (cases, modes), or None
         [rad^2/s^2].
     """
+    if len(force) < 6 * POINTS:
+        return None
     middle, directions = _family(force)
     number = len(directions)
     if not 1 <= number <= 2 or len(force) < 6 * POINTS**number:
