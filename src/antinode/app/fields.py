@@ -47,8 +47,11 @@ class Field:
             self._slider.props("thumb-size=14px track-size=3px").value = self._of(item.value)
             self._message = ui.label("").classes("an-message").props('role="alert"')
             self._message.visible = False
-        self._text.on("keydown.enter", self._typed)
-        self._text.on("blur", self._typed)
+        self._taken = ""  # what was typed last, so that leaving the field does not take it again
+        self._editing = False
+        self._text.on("focus", self._focused, [])
+        self._text.on("keydown.enter", self._typed, [])
+        self._text.on("blur", self._left, [])
         self._slider.on_value_change(self._slid)
         self._slider.on("change", session.release, [])
 
@@ -67,8 +70,17 @@ class Field:
         self._text.value = self._shown(new)
         self._session.change({self.item.path: new}, moving=self.item.path)
 
+    def _focused(self) -> None:
+        self._editing = True
+
+    def _left(self) -> None:
+        self._editing = False
+        if str(self._text.value or "").strip() != self._taken:
+            self._typed()
+
     def _typed(self) -> None:
-        text = str(self._text.value or "").strip()
+        self._editing = False
+        self._taken = text = str(self._text.value or "").strip()
         if text == self._shown(self.item.value) and not self._message.visible:
             return
         try:
@@ -88,7 +100,7 @@ class Field:
                 self._slider.props[key] = self._of(end)
         if self._slider.value != value:
             self._slider.value = value
-        if self._text.value != self._shown(item.value):
+        if not self._editing and self._text.value != self._shown(item.value):
             self._text.value = self._shown(item.value)
 
     def complain(self, sentence: str) -> None:
