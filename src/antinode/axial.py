@@ -172,7 +172,7 @@ def _pieces(EA: Array) -> tuple[Integers, Array, Array]:
         """Return where EA has run through j of the pieces' equal ratios."""
         share, steep = j / count[k], np.abs(ratio[k] - 1) > 1e-3
         inverse = np.where(steep, ratio[k] - 1, 1.0)
-        return np.where(steep, (ratio[k] ** share - 1) / inverse, share)
+        return np.asarray(np.where(steep, (ratio[k] ** share - 1) / inverse, share))
 
     start = bound(number)
     return k, start, bound(number + 1) - start

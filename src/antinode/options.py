@@ -240,7 +240,8 @@ class Exchange:
         try:
             length = None if self.length is None else to_si(self.length, "m")
         except ValueError as error:
-            raise InputError(f"--length {self.length[:40]!r}: {error}; write e.g. 87.6m") from error
+            given = str(self.length)[:40]
+            raise InputError(f"--length {given!r}: {error}; write e.g. 87.6m") from error
         if length is not None and not 0 < length < 1e9:
             raise InputError(f"--length is {length:g} m; it must be positive and below 1e9 m")
         return Choices(assignments, SYSTEMS[self.units], self.plane, length)
