@@ -78,6 +78,7 @@ STUDY = (
     "study.identification_file",
     "study.columns",
     "study.derivatives",
+    "study.effects",
     "study.response",
     "study.observations",
     "study.unknowns",

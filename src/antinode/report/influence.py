@@ -1,8 +1,8 @@
 """How strongly each input moves each bending frequency: percent of f for each percent of it.
 
-For a vehicle the derivatives of omega^2 by forces, mass and stiffness are exact
-(`study/derivatives.py`); how the forces follow the condition is taken from a small step. Of a beam
-each input is moved by a thousandth both ways, and the beam solved anew. With the frequency
+For a vehicle the derivatives of omega^2 come from the mode shapes (`study/effects.py`), on both
+sides of the condition. Of a beam each input is moved by a thousandth both ways, and the beam solved
+anew. With the frequency
 f = sqrt(omega^2)/(2 pi)
 
     (df/f) / (dp/p) = (p / (2 omega^2)) d(omega^2)/dp.
@@ -23,10 +23,11 @@ from antinode.beam import Beam
 from antinode.beam_file import BeamFile
 from antinode.case import Case
 from antinode.errors import AntinodeError
-from antinode.loads import PointForce, point_forces
 from antinode.modes import solve_modes
 from antinode.result import ModalResult
-from antinode.study.derivatives import MassChange, Modes, Sensitivity, force_changes
+from antinode.study.derivatives import MassChange, Modes, Sensitivity
+from antinode.study.effects import by_logarithm, effects_between
+from antinode.study.paths import find_place
 
 Array = npt.NDArray[np.float64]
 _STEP = 1e-4  # relative, of what the forces depend on
@@ -69,29 +70,17 @@ def _relative(sensitivity: Sensitivity, slope: Array) -> Array:
     return np.asarray(np.where(omega2 > 0, slope / (2 * np.abs(omega2)), np.nan))
 
 
-def _of_body(case: Case, sensitivity: Sensitivity) -> Iterator[Influence]:
-    loads, modes = case.loads, sensitivity.modes
-    yield Influence("thrust", "1 %", _relative(sensitivity, sensitivity.by_thrust * loads.thrust))
-    mass = loads.mass_distribution
-    by_mass = sensitivity.by_mass(MassChange(mass.at, lambda x: mass.moments(x)[0]))
-    yield Influence("mass of the body", "1 %", _relative(sensitivity, by_mass))
-    EI = np.repeat(modes.chain.stiffness, len(modes.x) // len(modes.chain.length))
-    by_EI = EI @ modes.by_stiffness(EI)
-    yield Influence("bending stiffness EI", "1 %", _relative(sensitivity, by_EI))
-
-
 def _of_condition(case: Case, sensitivity: Sensitivity) -> Iterator[Influence]:
     for name, key, step, scale, change in _parameters(case):
+        place = find_place(case, f"condition.{key}")
+        value = getattr(case.condition, key)
         try:
-            forces = [_forces_at(case, key, side * step) for side in (-1, 0, 1)]
+            sides = effects_between(case, place, (value - step, value, value + step))
         except AntinodeError:
             continue
-        sides = [
-            _slope(sensitivity, a, b, step) * scale
-            for a, b in ((forces[0], forces[1]), (forces[1], forces[2]))
-        ]
-        gap, size = (float(np.max(np.abs(v))) for v in (sides[1] - sides[0], sides))
-        percent = _relative(sensitivity, (sides[0] + sides[1]) / 2)
+        low, high = (side.slope(sensitivity) * scale for side in sides)
+        gap, size = (float(np.max(np.abs(v))) for v in (high - low, (low, high)))
+        percent = _relative(sensitivity, (low + high) / 2)
         yield Influence(name, change, percent, gap > _KINK * size and gap > 0)
 
 
@@ -112,17 +101,14 @@ def _parameters(case: Case) -> Iterator[tuple[str, str, float, float, str]]:
         yield "fin position", "fin_position", _STEP * L, L, "1 % of length"
 
 
-def _forces_at(case: Case, key: str, shift: float) -> tuple[PointForce, ...]:
-    value = getattr(case.condition, key) + shift
-    condition = case.condition.model_copy(update={key: value})
-    return point_forces(case.vehicle, condition, case.water, case.model)
-
-
-def _slope(
-    sensitivity: Sensitivity, lower: tuple[PointForce, ...], upper: tuple[PointForce, ...], h: float
-) -> Array:
-    changes = force_changes(lower, upper, h)
-    return np.asarray(np.sum([sensitivity.by_force(change) for change in changes], axis=0))
+def _of_body(case: Case, sensitivity: Sensitivity) -> Iterator[Influence]:
+    loads = case.loads
+    yield Influence("thrust", "1 %", _relative(sensitivity, sensitivity.by_thrust * loads.thrust))
+    mass = loads.mass_distribution
+    by_mass = sensitivity.by_mass(MassChange(mass.at, lambda x: mass.moments(x)[0]))
+    yield Influence("mass of the body", "1 %", _relative(sensitivity, by_mass))
+    by_EI = by_logarithm(case, ("bending_stiffness",), sensitivity).sum(axis=0)
+    yield Influence("bending stiffness EI", "1 %", _relative(sensitivity, by_EI))
 
 
 # --- any beam --------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ the inputs. Local: derivatives at the case itself, from the mode shapes, in % pe
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,14 +21,14 @@ from antinode.errors import AntinodeError, ComputationError, InputError
 from antinode.riccati.chain import Family
 
 from .chunks import failed, mode_names
+from .derivatives import Sensitivity
 from .design import Points, Variable, points_of
-from .identification_file import Distribution, IdentificationProblem, ObservationRow, Parameter
+from .effects import by_logarithm, effect_of_number, effect_of_radius
 from .indices import Indices, sobol_indices
-from .misfit import RowDerivative
+from .paths import value_at
 from .response import respond, sufficient_refinement
 from .study_file import Study
 from .sweep import sweep
-from .unknowns import make_unknowns
 
 Array = npt.NDArray[np.float64]
 
@@ -212,8 +212,9 @@ def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]
         return dict.fromkeys(mode_names(study), (np.nan, nothing))
     for family, number in wanted.items():
         omega2 = response.modes[family].omega2
+        sensitivity = response.sensitivity(family)
         by_input = np.stack(
-            [_by_input(study.case, response, v, family) for v in points.variables], axis=1
+            [_by_input(study.case, sensitivity, v) for v in points.variables], axis=1
         )
         for k in range(number):
             with np.errstate(all="ignore"):
@@ -222,49 +223,22 @@ def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]
     return found
 
 
-def _by_input(case: Case, response: Any, variable: Variable, family: Family) -> Array:
+def _by_input(case: Case, sensitivity: Sensitivity, variable: Variable) -> Array:
     """Return d(omega^2) of every mode of a family by an input."""
-    nothing = np.full(len(response.modes[family].omega2), np.nan)
-    if variable.start is None:
-        return nothing
     try:
-        problem, entry = _problem(case, variable)
-        unknowns = make_unknowns(problem, [case], [set()])
-    except (AntinodeError, ValueError):
-        return nothing
-    vector = unknowns.start
-    slopes = unknowns.slopes(vector)
-    derivative = RowDerivative(unknowns, 0, response, slopes, unknowns.logarithms(vector))
-    by_entry = derivative.by_vector(family)[:, entry]
-    if variable.kind == "column":  # the entry is a logarithm, over its size; the factor is 1 here
-        return np.asarray(by_entry / unknowns.items[entry].size)
-    by_value = by_entry / slopes[entry]
-    own = unknowns.items[entry].start
-    return np.asarray(by_value * own if variable.given.factor else by_value)
+        return _slope(case, sensitivity, variable)
+    except AntinodeError:
+        return np.full(len(sensitivity.modes.omega2), np.nan)
 
 
-def _problem(case: Case, variable: Variable) -> tuple[IdentificationProblem, int]:
-    """Return a problem with one parameter or column, and the entry of the variable in it."""
-    row = ObservationRow(bending=(1.0,))
-    if variable.kind != "column":
-        parameter = Parameter(key=variable.key)
-        problem = IdentificationProblem(case=case, observations=(row,), parameters=(parameter,))
-        return problem, 0
-    given = variable.given
-    column = ":".join(map(str, variable.keys[2:]))
-    points = given.control_points
-    single = Distribution(
-        column=column,
-        control_points=1 if points is None else points,
-        interpolation=given.interpolation,
-    )
-    entry = 0 if points is None else _control_point(case, variable, points)
-    return IdentificationProblem(case=case, observations=(row,), distributions=(single,)), entry
-
-
-def _control_point(case: Case, variable: Variable, points: int | Sequence[float]) -> int:
-    """Return the number of a variable's control point, which its name ends with."""
-    x = case.vehicle.stations.x
-    places = np.linspace(x[0], x[-1], points) if isinstance(points, int) else np.array(points)
-    at = float(variable.name.rpartition(" at ")[2].removesuffix(" m"))
-    return int(np.argmin(np.abs(places - at)))
+def _slope(case: Case, sensitivity: Sensitivity, variable: Variable) -> Array:
+    if variable.weights is not None:  # of a factor on a column, which is 1 here
+        if variable.keys[-1] == "radius":
+            return effect_of_radius(case, variable.weights).slope(sensitivity)
+        by_row = by_logarithm(case, variable.keys[2:], sensitivity)
+        return np.asarray(variable.weights @ by_row)
+    value = None if variable.place is None else value_at(case, variable.keys)
+    if variable.place is None or value is None:
+        return np.full(len(sensitivity.modes.omega2), np.nan)
+    slope = effect_of_number(case, variable.place).slope(sensitivity)
+    return slope * value if variable.given.factor else slope
