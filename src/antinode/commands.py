@@ -16,12 +16,9 @@ from .options import (
     BeamSet,
     BucklingFactor,
     Exchange,
-    Folder,
     FromFormat,
-    IdentifySet,
     Json,
     Output,
-    Overwrite,
     ReportFile,
     ReportModes,
     ReportTolerance,
@@ -29,7 +26,7 @@ from .options import (
     Solver,
     ToFormat,
 )
-from .study_options import Sensitivity, StudySet, Sweep
+from .study_options import Folder, IdentifySet, Overwrite, Sensitivity, StudySet, Sweep
 from .text import one_line, short
 
 if TYPE_CHECKING:

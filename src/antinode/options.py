@@ -12,85 +12,60 @@ from cyclopts import Group, Parameter
 if TYPE_CHECKING:
     from .exchange.inputs import Choices
 
-_input = Group("Input", sort_key=1)
-_solver = Group("Solver", sort_key=2)
-_output = Group("Output", sort_key=3)
+INPUT = Group("Input", sort_key=1)
+SOLVER = Group("Solver", sort_key=2)
+WORK = Group("Work", sort_key=2)
+OUTPUT = Group("Output", sort_key=3)
 
 
-def _whole(_: Any, tokens: Sequence[Any]) -> int:
-    """Convert a token to a whole number; cyclopts itself would round 2.5."""
+def option(group: Group, text: str, *names: str, **more: Any) -> Parameter:
+    """Return an option with its help; without names it has that of its argument."""
+    return Parameter(name=names or None, help=text, group=group, **more)
+
+
+def flag(group: Group, text: str, *names: str) -> Parameter:
+    """Return an option that is given or not, once or often; no default is shown."""
+    return option(group, text, *names, negative="", show_default=False)
+
+
+def whole(group: Group, text: str, *names: str) -> Parameter:
+    """Return an option that takes a whole number; cyclopts itself would round 2.5."""
+    return option(group, text, *names, converter=_to_whole)
+
+
+def _to_whole(_: Any, tokens: Sequence[Any]) -> int:
     try:
         return int(tokens[0].value)
     except ValueError:
         raise ValueError(f"{tokens[0].value[:40]!r} is no whole number") from None
 
 
-def _set(example: str) -> Parameter:
+def assignments(file: str, example: str, more: str = "") -> Parameter:
     """Return the option that overrides keys of a file."""
-    return Parameter(
-        name="--set",
-        help=f"Override a key of the file: {example} (repeatable; entries of a list count from 0).",
-        negative="",
-        show_default=False,
-        group=_input,
-    )
+    return flag(INPUT, f"Override a key of the {file}: {example} (repeatable{more}).", "--set")
 
 
+_LISTS = "; entries of a list count from 0"
 Set = Annotated[
-    tuple[str, ...], _set("--set condition.speed=100m/s, --set vehicle.fins.0.thickness=20mm")
+    tuple[str, ...],
+    assignments(
+        "file", "--set condition.speed=100m/s, --set vehicle.fins.0.thickness=20mm", _LISTS
+    ),
 ]
 BeamSet = Annotated[
     tuple[str, ...],
-    _set("--set beam.ends.left=pinned, --set beam.stations.axial_force.0=100kN"),
+    assignments(
+        "file", "--set beam.ends.left=pinned, --set beam.stations.axial_force.0=100kN", _LISTS
+    ),
 ]
 Json = Annotated[
     bool,
-    Parameter(
-        name="--json",
-        help="Print one JSON object in place of tables; units stand in its keys.",
-        negative="",
-        show_default=False,
-        group=_output,
-    ),
+    flag(OUTPUT, "Print one JSON object in place of tables; units stand in its keys.", "--json"),
 ]
 BucklingFactor = Annotated[
     bool,
-    Parameter(
-        name="--buckling",
-        help="Also find the factor on the axial force at which the beam buckles.",
-        negative="",
-        show_default=False,
-        group=_solver,
-    ),
-]
-
-
-IdentifySet = Annotated[
-    tuple[str, ...],
-    Parameter(
-        name="--set",
-        help="Override a key of the identification file: --set fit.starts=8 (repeatable).",
-        negative="",
-        show_default=False,
-        group=_input,
-    ),
-]
-Folder = Annotated[
-    Path | None,
-    Parameter(
-        name=["-o", "--output"],
-        help="Write the fitted case, tables and JSON into this folder.",
-        group=_output,
-    ),
-]
-Overwrite = Annotated[
-    bool,
-    Parameter(
-        name="--overwrite",
-        help="Write over files of an earlier run.",
-        negative="",
-        show_default=False,
-        group=_output,
+    flag(
+        SOLVER, "Also find the factor on the axial force at which the beam buckles.", "--buckling"
     ),
 ]
 
@@ -102,32 +77,26 @@ class Solver:
 
     modes: Annotated[
         int | None,
-        Parameter(
-            converter=_whole,
-            help="Elastic modes 1 ... n of each family, up to 500; default: the file's, or 6.",
-            group=_solver,
+        whole(
+            SOLVER,
+            "Elastic modes 1 ... n of each family, up to 500; default: the file's, or 6.",
         ),
     ] = None
     tolerance: Annotated[
         float | None,
-        Parameter(
-            help="Largest relative error of a frequency by what varies inside segments, 1e-12 to "
-            "0.1; default: the file's, or 1e-6.",
-            group=_solver,
+        option(
+            SOLVER,
+            "Largest relative error of a frequency by what varies inside segments, 1e-12 to 0.1; "
+            "default: the file's, or 1e-6.",
         ),
     ] = None
     method: Annotated[
         Literal["riccati", "tmm"],
-        Parameter(
-            help="riccati, certified; or tmm, the transfer matrix scan, for comparison.",
-            group=_solver,
-        ),
+        option(SOLVER, "riccati, certified; or tmm, the transfer matrix scan, for comparison."),
     ] = "riccati"
     shapes: Annotated[
         Literal["amplitude", "mass"],
-        Parameter(
-            help="Scale shapes to largest displacement 1, or unit modal mass.", group=_solver
-        ),
+        option(SOLVER, "Scale shapes to largest displacement 1, or unit modal mass."),
     ] = "amplitude"
 
 
@@ -139,57 +108,49 @@ class Output:
     json: Json = False
     file: Annotated[
         Path | None,
-        Parameter(
-            name=["-o", "--output"],
-            help="Write the result to a file: .csv (a table), .json, or .nc (NetCDF, with shapes); "
+        option(
+            OUTPUT,
+            "Write the result to a file: .csv (a table), .json, or .nc (NetCDF, with shapes); "
             "modes also as .xlsx, .mat, .vtu, .uff or .bdf.",
-            group=_output,
+            "-o",
+            "--output",
         ),
     ] = None
-    plot: Annotated[
-        Path | None,
-        Parameter(help="Draw the result: .png, .svg or .pdf.", group=_output),
-    ] = None
+    plot: Annotated[Path | None, option(OUTPUT, "Draw the result: .png, .svg or .pdf.")] = None
 
 
 ReportFile = Annotated[
-    Path,
-    Parameter(name=["-o", "--output"], help="The report to write: .pdf or .html.", group=_output),
+    Path, option(OUTPUT, "The report to write: .pdf or .html.", "-o", "--output")
 ]
 ReportModes = Annotated[
     int | None,
-    Parameter(
-        name="--modes",
-        converter=_whole,
-        help="Elastic modes 1 ... n of each family; default: the file's, or 6.",
-        group=_solver,
-    ),
+    whole(SOLVER, "Elastic modes 1 ... n of each family; default: the file's, or 6.", "--modes"),
 ]
 ReportTolerance = Annotated[
     float | None,
-    Parameter(
-        name="--tolerance",
-        help="Largest relative error of a frequency; default: the file's, or 1e-6.",
-        group=_solver,
+    option(
+        SOLVER,
+        "Largest relative error of a frequency; default: the file's, or 1e-6.",
+        "--tolerance",
     ),
 ]
 FromFormat = Annotated[
     str,
-    Parameter(
-        name="--from",
-        help="Format of the input, where its ending does not say: toml, csv, xlsx, nastran, "
-        "sections, uff.",
-        group=_input,
+    option(
+        INPUT,
+        "Format of the input, where its ending does not say: toml, csv, xlsx, nastran, sections, "
+        "uff.",
+        "--from",
         show_default=False,
     ),
 ]
 ToFormat = Annotated[
     str,
-    Parameter(
-        name="--to",
-        help="Format of the output, where its ending does not say: toml, csv, xlsx, json, netcdf, "
-        "mat, nastran, uff, vtk.",
-        group=_output,
+    option(
+        OUTPUT,
+        "Format of the output, where its ending does not say: toml, csv, xlsx, json, netcdf, mat, "
+        "nastran, uff, vtk.",
+        "--to",
         show_default=False,
     ),
 ]
@@ -202,30 +163,26 @@ class Exchange:
 
     modes: Annotated[
         int | None,
-        Parameter(
-            converter=_whole,
-            help="Elastic modes of each family in an output with modes; default: the file's, or 6.",
-            group=_output,
+        whole(
+            OUTPUT,
+            "Elastic modes of each family in an output with modes; default: the file's, or 6.",
         ),
     ] = None
     units: Annotated[
         Literal["SI", "mm-t-s"],
-        Parameter(help="Units of NASTRAN and UFF files that do not say them.", group=_input),
+        option(INPUT, "Units of NASTRAN and UFF files that do not say them."),
     ] = "SI"
     plane: Annotated[
         int,
-        Parameter(
-            converter=_whole,
-            help="Plane of bending where a file has two: 1 or 2 (NASTRAN's; flap or fore-aft is 1, "
-            "edge or side-side 2; y is 1, z 2).",
-            group=_input,
+        whole(
+            INPUT,
+            "Plane of bending where a file has two: 1 or 2 (NASTRAN's; flap or fore-aft is 1, edge "
+            "or side-side 2; y is 1, z 2).",
         ),
     ] = 1
     length: Annotated[
         str | None,
-        Parameter(
-            help="Length of the beam where stations are fractions of it: 87.6m.", group=_input
-        ),
+        option(INPUT, "Length of the beam where stations are fractions of it: 87.6m."),
     ] = None
 
     def choices(self, assignments: tuple[str, ...]) -> Choices:

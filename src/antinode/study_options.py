@@ -6,24 +6,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Group, Parameter
+from cyclopts import Parameter
 
-from .options import Json, _whole
+from .options import INPUT, OUTPUT, WORK, Json, assignments, flag, option, whole
 
-_input = Group("Input", sort_key=1)
-_work = Group("Work", sort_key=2)
-_output = Group("Output", sort_key=3)
-
-StudySet = Annotated[
-    tuple[str, ...],
-    Parameter(
-        name="--set",
-        help="Override a key of the study file: --set design.number=4096 (repeatable).",
-        negative="",
-        show_default=False,
-        group=_input,
-    ),
+StudySet = Annotated[tuple[str, ...], assignments("study file", "--set design.number=4096")]
+IdentifySet = Annotated[tuple[str, ...], assignments("identification file", "--set fit.starts=8")]
+Folder = Annotated[
+    Path | None,
+    option(OUTPUT, "Write the fitted case, tables and JSON into this folder.", "-o", "--output"),
 ]
+Overwrite = Annotated[bool, flag(OUTPUT, "Write over files of an earlier run.", "--overwrite")]
 
 
 @Parameter(name="*")
@@ -33,47 +26,34 @@ class Sweep:
 
     modes: Annotated[
         int | None,
-        Parameter(
-            converter=_whole,
-            help="Modes of each family, up to 100; default: the file's, or 6.",
-            group=_work,
-        ),
+        whole(WORK, "Modes of each family, up to 100; default: the file's, or 6."),
     ] = None
     output: Annotated[
         Path | None,
-        Parameter(
-            name=["-o", "--output"],
-            help="Folder of a store, such as sweep.zarr, with which a later run goes on; or a file "
+        option(
+            OUTPUT,
+            "Folder of a store, such as sweep.zarr, with which a later run goes on; or a file "
             "(.nc, .csv) that is written at the end.",
-            group=_output,
+            "-o",
+            "--output",
         ),
     ] = None
     workers: Annotated[
         int | None,
-        Parameter(
-            converter=_whole,
-            help="Processes; default: one for each processor, or this one alone for a small study.",
-            group=_work,
+        whole(
+            WORK,
+            "Processes; default: one for each processor, or this one alone for a small study.",
         ),
     ] = None
     scheduler: Annotated[
         str | None,
-        Parameter(
-            help="Address of a Dask scheduler, tcp://host:8786, whose workers compute.", group=_work
-        ),
+        option(WORK, "Address of a Dask scheduler, tcp://host:8786, whose workers compute."),
     ] = None
     plot: Annotated[
         Path | None,
-        Parameter(
-            help="Draw frequencies against the first input: .png, .svg or .pdf.", group=_output
-        ),
+        option(OUTPUT, "Draw frequencies against the first input: .png, .svg or .pdf."),
     ] = None
-    overwrite: Annotated[
-        bool,
-        Parameter(
-            help="Replace a store of another study.", negative="", show_default=False, group=_output
-        ),
-    ] = False
+    overwrite: Annotated[bool, flag(OUTPUT, "Replace a store of another study.")] = False
     json: Json = False
 
     def assignments(self, given: tuple[str, ...]) -> tuple[str, ...]:
@@ -88,31 +68,25 @@ class Sensitivity:
 
     uncertain: Annotated[
         tuple[str, ...],
-        Parameter(
-            help="An uncertain input with its standard deviation, normal about the case's value: "
+        flag(
+            INPUT,
+            "An uncertain input with its standard deviation, normal about the case's value: "
             "--uncertain speed=2% --uncertain thrust=3kN (repeatable).",
-            negative="",
-            show_default=False,
-            group=_input,
         ),
     ] = ()
     samples: Annotated[
         int | None,
-        Parameter(
-            converter=_whole,
-            help="Samples of each arrangement, best a power of 2; default: design.number, or 1024.",
-            group=_work,
+        whole(
+            WORK,
+            "Samples of each arrangement, best a power of 2; default: design.number, or 1024.",
         ),
     ] = None
-    workers: Annotated[
-        int | None, Parameter(converter=_whole, help="Processes; default: 1.", group=_work)
-    ] = None
+    workers: Annotated[int | None, whole(WORK, "Processes; default: 1.")] = None
     store: Annotated[
         Path | None,
-        Parameter(help="Folder that keeps all cases, as -o of sweep does.", group=_output),
+        option(OUTPUT, "Folder that keeps all cases, as -o of sweep does."),
     ] = None
     plot: Annotated[
-        Path | None,
-        Parameter(help="Draw a tornado of indices: .png, .svg or .pdf.", group=_output),
+        Path | None, option(OUTPUT, "Draw a tornado of indices: .png, .svg or .pdf.")
     ] = None
     json: Json = False
