@@ -66,9 +66,9 @@ def step():
     h, one = np.full(SEGMENTS, 1.0 / SEGMENTS), 36.0 / np.mean(EI)
     own = h, m / np.mean(m), EI / np.mean(EI), N * one
     starts_at, marks = np.empty(SEGMENTS + 1, np.int64), np.full(SEGMENTS + 1, -1)
-    pieces = lanes._pieces(*own, 1.2e5, starts_at)
-    table = np.empty((lanes._ROWS, pieces))
-    lanes._fill(*own, starts_at, marks, table)
+    pieces = lanes.count_pieces(*own, 1.2e5, starts_at)
+    table = np.empty((lanes.ROWS, pieces))
+    lanes.fill_table(*own, starts_at, marks, table)
     state = np.zeros(64)
     state[48:56] = np.linspace(100, 1.2e5, 8)
     times = 200

@@ -35,7 +35,7 @@ _STEEPEST = 4.0  # ratio of a property across one step (averages stay positive u
 _LONGEST = 1 / 16  # share of one step in the waves along the beam
 _MOST_HALVINGS = 40
 LIMITS = _STEEPEST, _LONGEST, _MOST_HALVINGS
-"""What the coarsest steps keep to: `riccati.halves` makes the same ones."""
+"""What the coarsest steps keep to: `riccati.lanes` makes the same ones."""
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,9 @@ class Beam:
         def between(values: npt.ArrayLike | None) -> Array | None:
             if values is None:
                 return None
-            column = np.broadcast_to(np.asarray(values, dtype=float), _row_shape(values, stations))
+            column = np.asarray(values, dtype=float)
+            if column.ndim == 0:
+                column = np.full(len(stations), column)
             if interpolation == "step":
                 return np.repeat(column[:intervals, None], 2, axis=1)
             table = np.empty((intervals, 2))
@@ -351,7 +353,7 @@ class Beam:
 
         stiffness = self.bending_stiffness if family == "bending" else _given(self.axial_stiffness)
         first = np.concatenate([[0], np.cumsum(np.bincount(interval[step]))])
-        left, right, points = self._points(family, first)
+        left, right, points = self.points(family, first)
         return Chain(
             points=points,
             length=(np.diff(self.x)[interval] * size / halves)[step],
@@ -363,11 +365,15 @@ class Beam:
             family=family,
         )
 
-    def _points(self, family: Family, first: Integers) -> tuple[str, str, tuple[Point, ...]]:
+    def points(
+        self, family: Family, first: Integers | None = None
+    ) -> tuple[str, str, tuple[Point, ...]]:
         """Return the ends with their supports, and the points at nodes of a chain.
 
-        `first` is the node of every breakpoint.
+        `first` is the node of every breakpoint: its number, unless given.
         """
+        if first is None:
+            first = np.arange(len(self.x))
         acceleration = self.axial_acceleration if self.offset_weight else 0.0
         points = gather(self.attachments, self.x, family, acceleration)
         ends = list(self.ends.of(family))
@@ -387,7 +393,7 @@ class Beam:
             Rows [a, b] of motions ``a + b (x - x[0])``; longitudinally only [1, 0] can occur.
         """
         rows = [np.zeros(2)]
-        left, right, points = self._points(family, np.arange(len(self.x)))
+        left, right, points = self.points(family)
         held = [(0.0, _HOLDS[left]), (self.length, _HOLDS[right])]
         for point in points:
             springs = (point.spring, point.rotational_spring)
@@ -433,11 +439,6 @@ _TABLES = (
     "axial_force",
     "radius_of_gyration",
 )
-
-
-def _row_shape(values: npt.ArrayLike, stations: Array) -> tuple[int, ...]:
-    shape = np.shape(values)
-    return (len(stations),) if shape == () else shape
 
 
 def _given(values: Array | None) -> Array:
@@ -493,7 +494,8 @@ def _check(beam: Beam) -> None:
         raise InputError(f"a beam needs at least two breakpoints x; received {n + 1}")
     if not np.all(np.isfinite(beam.x)):
         raise InputError("x: every breakpoint must be a finite number [m]")
-    for k in np.flatnonzero(np.diff(beam.x) <= 0)[:1]:
+    rises = beam.x[1:] > beam.x[:-1]
+    for k in () if rises.all() else np.flatnonzero(~rises)[:1]:
         raise InputError(
             f"x must increase from row to row: row {k + 2} has {beam.x[k + 1]:g} m "
             f"after {beam.x[k]:g} m in row {k + 1}"
@@ -502,7 +504,8 @@ def _check(beam: Beam) -> None:
         values = getattr(beam, name)
         if values is not None:
             _check_table(name, values, n)
-    check_attachments(beam.attachments, beam.x)
+    if beam.attachments:
+        check_attachments(beam.attachments, beam.x)
     for item in beam.attachments:
         if np.min(np.abs(beam.x - item.x)) > 1e-9 * beam.length:
             raise InputError(

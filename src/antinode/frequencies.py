@@ -24,18 +24,17 @@ from .kernel import kernel_if_worthwhile
 from .limits import out_of_range_is_an_error
 from .modes import HasBeam, rigid_modes, solve_modes
 from .result import hertz
-from .riccati.chain import Chain
+from .riccati.points import Point
 
 if TYPE_CHECKING:
-    from .riccati.lanes import Roots
+    from .riccati.compiled import Roots
 
 Array = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 
 _WIDTH = 0.98e-10
-_MOST_LEVELS = 7
 _MODES_PER_REFINEMENT = 8  # that the coarsest steps are meant for
-_SHARE = 1 / 4  # of the last change of the extrapolated omega^2: its error falls by 16 or more
+_NOT_READ = np.zeros(0)
 
 
 @dataclass(frozen=True)
@@ -122,57 +121,28 @@ def _by_modes(beam: Beam, modes: int, tolerance: float) -> Frequencies:
     )
 
 
-class _Chains:
-    """The chains of one beam, level by level; compiled where N comes from the table alone."""
-
-    def __init__(self, beam: Beam) -> None:
-        self.beam, self.varies = beam, beam.varies("bending")
-        self.halves = None
-        if beam.attachments or beam.axial_acceleration:
-            return
-        from .riccati.halves import Halves
-
-        tables = beam.x, beam.mass_per_length, beam.bending_stiffness, beam.axial_force
-        self.halves = Halves(*tables, self.varies, beam.interpolation == "log", LIMITS)
-
-    def at(self, refinement: int) -> Chain:
-        if self.halves is None:
-            return self.beam.chain("bending", refinement)
-        h, m, EI, N = self.halves.segments(refinement)
-        return Chain(h, m, EI, N, self.beam.ends.left, self.beam.ends.right)
-
-
 def _by_kernel(
     compiled: ModuleType, beam: Beam, modes: int, tolerance: float
 ) -> Frequencies | None:
-    """Refine until two extrapolated results agree; None where the kernel does not do."""
-    try:
-        chains = _Chains(beam)
-    except OverflowError:
-        return None
-    rigid = len(rigid_modes(beam, "bending")) if beam.attachments else rigid_modes_of(beam.ends)
+    """Solve with steps halved until two extrapolated results agree; None where that fails."""
+    held: tuple[str, str, tuple[Point, ...]] = beam.ends.left, beam.ends.right, ()
+    rigid = rigid_modes_of(beam.ends)
+    if beam.attachments:
+        held, rigid = beam.points("bending"), len(rigid_modes(beam, "bending"))
+    acceleration = float(beam.axial_acceleration)
+    tables = compiled.Tables(
+        *(beam.x, beam.mass_per_length, beam.bending_stiffness, beam.axial_force, acceleration),
+        *(beam.mass_left if acceleration else _NOT_READ, beam.interpolation == "log", LIMITS),
+        *held,
+    )
     refinement = max(1, (modes + rigid) // _MODES_PER_REFINEMENT)
-    levels: list[Array] = []
-    start, error = None, np.zeros(modes)
-    for _ in range(_MOST_LEVELS):
-        chain = chains.at(refinement)
-        start = compiled.SingleChain(chain).roots(rigid, modes, _WIDTH, start)
-        if start.reason != compiled.CERTIFIED:
-            return None
-        levels.append(start.omega2)
-        if not chains.varies.any():
-            return _certified(chain, start, start.omega2, error)
-        if len(levels) > 2:
-            better, before = (b + (b - a) / 15 for a, b in (levels[-2:], levels[-3:-1]))
-            error = _SHARE * np.abs(better - before)
-            if np.all(error <= 2 * tolerance * np.abs(better)):
-                return _certified(chain, start, better, error)
-        refinement *= 2
-    return None
+    found = compiled.solve_beam(tables, rigid, modes, refinement, tolerance, _WIDTH)
+    return _certified(found) if found.reason == compiled.CERTIFIED else None
 
 
-def _certified(chain: Chain, found: Roots, omega2: Array, error: Array) -> Frequencies:
-    bracket = np.empty((len(omega2), 2))
-    bracket[:, 0], bracket[:, 1] = found.low - found.rounding, found.high + found.rounding
-    half = np.maximum(bracket[:, 1] - found.omega2, found.omega2 - bracket[:, 0])
-    return Frequencies(omega2, error + half, bracket, found.counts, len(chain.length))
+def _certified(found: Roots) -> Frequencies:
+    low, high = found.low - found.rounding, found.high + found.rounding
+    inside = np.minimum(np.maximum(found.omega2, low), high)
+    error = found.error + np.maximum(high - inside, inside - low)
+    bracket = np.array([low, high]).T
+    return Frequencies(found.omega2, error, bracket, found.counts, found.segments)

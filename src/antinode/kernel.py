@@ -22,7 +22,7 @@ _loading = threading.Lock()
 
 
 def kernel() -> ModuleType:
-    """Return `riccati.lanes`, compiled or taken from numba's cache once a process."""
+    """Return `riccati.compiled`, compiled or taken from numba's cache once a process."""
     with _loading:
         if not _ready:
             _ready.append(_prepare())
@@ -43,33 +43,37 @@ def _prepare() -> ModuleType:
     notice.daemon = True
     notice.start()
     try:
-        lanes = _import_kernel()
-        _try(lanes)
+        compiled = _import_kernel()
+        _try(compiled)
     finally:
         notice.cancel()
-    if lanes.compiled_here():
+    if compiled.compiled_here():
         _say(f"compiled the batch kernel in {time.perf_counter() - start:.1f} s")
-    return lanes
+    return compiled
 
 
-def _try(lanes: Any) -> None:
+def _try(compiled: Any) -> None:
     """Call everything once that is compiled."""
     one = np.ones((1, 1))
     one.flags.writeable = False
     out = [np.zeros((1, 1)) for _ in range(4)]
     counts = np.zeros((1, 1, 2), dtype=np.int64)
     ends = np.array([0, 0])
-    lanes.solve_chains(*(one, one, one, one, ends, 2, 1e-10, (*out[:3], counts, out[3])))
+    compiled.solve_chains(*(one, one, one, one, ends, 2, 1e-10, (*out[:3], counts, out[3])))
     structure = tuple(one[0] for _ in range(3))
-    lanes.certify_guesses(structure, one, ends, 2, 1e-10, one, (*out[:3], counts, out[3]))
-    chain = lanes.Chain(*(np.ones(1) for _ in range(4)))
-    lanes.find_eigenvalues(chain, 3, zeros=2)
+    compiled.certify_guesses(structure, one, ends, 2, 1e-10, one, (*out[:3], counts, out[3]))
+    chain = compiled.Chain(*(np.ones(1) for _ in range(4)))
+    compiled.find_eigenvalues(chain, 3, zeros=2)
+    tables = np.arange(2.0), *(np.ones((1, 2)) for _ in range(3))
+    limits = 4.0, 1.0, 1
+    beam = compiled.Tables(*tables, 0.0, np.zeros(0), False, limits, "free", "free", ())
+    compiled.solve_beam(beam, 2, 1, 1, 1e-6, 1e-10)
 
 
 def _import_kernel() -> ModuleType:
     """Import the kernel; keep its cache in a temporary folder if numba finds no other place."""
     try:
-        from .riccati import lanes
+        from .riccati import compiled
     except RuntimeError as error:
         if "cannot cache" not in str(error):
             raise
@@ -77,14 +81,14 @@ def _import_kernel() -> ModuleType:
 
         settings: Any = config
         settings.CACHE_DIR = str(Path(tempfile.gettempdir()) / "antinode-numba")
-        from .riccati import lanes
-    return lanes
+        from .riccati import compiled
+    return compiled
 
 
 def _say_if_compiling() -> None:
     """Tell what takes long, unless it is a busy machine that reads the cache."""
-    lanes = sys.modules.get("antinode.riccati.lanes")
-    if lanes is not None and lanes.compiled_here():
+    compiled = sys.modules.get("antinode.riccati.compiled")
+    if compiled is not None and compiled.compiled_here():
         _say("compiling the batch kernel, once; some 20 s")
 
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from antinode.beam import LIMITS, Beam
 from antinode.riccati import chain as readable
-from antinode.riccati import lanes
+from antinode.riccati import compiled, lanes
 from antinode.riccati.chain import Chain, omega2_scale
 from antinode.riccati.points import Point
 from antinode.riccati.segment import fundamental
@@ -55,7 +56,7 @@ def test_counts_and_signs_agree_with_the_readable_form(seed, points):
         omega2 = size * np.concatenate(
             [10 ** rng.uniform(-2, 5.5, 11), -(10 ** rng.uniform(-2, 5, 6))]
         )
-        fast, slow = lanes.evaluate(chain, omega2), readable.evaluate(chain, omega2)
+        fast, slow = compiled.evaluate(chain, omega2), readable.evaluate(chain, omega2)
         assert fast.below.tolist() == slow.below.tolist()
         assert np.sign(fast.characteristic).tolist() == np.sign(slow.characteristic).tolist()
 
@@ -70,7 +71,7 @@ def as_chain(case):
 def test_counts_agree_with_many_digits(index):
     """omega^2 in gaps between eigenvalues, below the first, and below zero."""
     case = draw_case(515, index)
-    below = lanes.evaluate(as_chain(case), [case.omega2]).below[0]
+    below = compiled.evaluate(as_chain(case), [case.omega2]).below[0]
     assert below == certain_count(case.chain, case.omega2).count
 
 
@@ -78,7 +79,7 @@ def test_counts_agree_with_many_digits(index):
 def test_counts_at_resonances_of_parts(index):
     """Where det A of a part vanishes to the last digit, and one step beside it."""
     for case in draw_resonance(515, index):
-        below = lanes.evaluate(as_chain(case), [case.omega2]).below[0]
+        below = compiled.evaluate(as_chain(case), [case.omega2]).below[0]
         assert below == certain_count(case.chain, case.omega2).count
 
 
@@ -99,13 +100,44 @@ def test_the_series_are_products_of_the_readable_ones():
 def test_a_hopeless_omega2_is_refused():
     one = np.ones(3)
     with pytest.raises(FloatingPointError, match="out of reach"):
-        lanes.evaluate(Chain(one, one, one * 1e-9, one), [1e30])
+        compiled.evaluate(Chain(one, one, one * 1e-9, one), [1e30])
 
 
 def test_bars_and_held_ends_go_the_readable_way():
     one = np.ones(3)
     bar = Chain(one, one, one, 0 * one, family="longitudinal")
-    assert lanes.evaluate(bar, [2.0]).below.tolist() == readable.evaluate(bar, [2.0]).below.tolist()
+    assert (
+        compiled.evaluate(bar, [2.0]).below.tolist() == readable.evaluate(bar, [2.0]).below.tolist()
+    )
     held = Chain(one, one, one, 0 * one, points=(Point(0, holds=(0,)),))
     expected = readable.evaluate(held, [2.0, 50.0]).below.tolist()
-    assert lanes.evaluate(held, [2.0, 50.0]).below.tolist() == expected
+    assert compiled.evaluate(held, [2.0, 50.0]).below.tolist() == expected
+
+
+@pytest.mark.parametrize("interpolation", ["log", "linear"])
+@pytest.mark.parametrize("refinement", [1, 3])
+@pytest.mark.parametrize("acceleration", [0.0, 30.0])
+def test_half_segments_are_those_of_the_beam(interpolation, refinement, acceleration):
+    rng, n = np.random.default_rng(8), 9
+    x = np.cumsum(rng.uniform(0.1, 2, n + 1))
+    m, EI = 10 ** rng.uniform(0, 2, (n, 2)), 10 ** rng.uniform(3, 6, (n, 2))
+    m[2], EI[2] = m[2, 0], EI[2, 0]
+    N = rng.uniform(-5, 5, (n, 2))
+    N[2] = N[2, 0]
+    more = {"interpolation": interpolation, "axial_acceleration": acceleration}
+    beam = Beam(x, m, EI, axial_force=N, **more)
+    whole = interpolation == "log"
+    varies, first, interval = (np.zeros(99, np.int64) for _ in range(3))
+    steps, own = np.empty((4, 99)), np.empty((4, 999))
+    lanes._varying(m, EI, N, acceleration, varies)
+    number = lanes.coarsest_steps(x, m, EI, varies, whole, LIMITS, interval, steps)
+    found = lanes.make_halves(
+        *(x, m, EI, N, acceleration, beam.mass_left, varies, whole, interval, steps, number),
+        *(refinement, first, own),
+    )
+    chain = beam.chain("bending", refinement)
+    assert found == len(chain.length)
+    for row, name in enumerate(("length", "mass", "stiffness", "axial_force")):
+        assert own[row, :found] == pytest.approx(getattr(chain, name), rel=1e-13)
+    ends = x[0] + np.concatenate([[0.0], np.cumsum(chain.length)])
+    assert ends[first[: n + 1]] == pytest.approx(x, rel=1e-12)

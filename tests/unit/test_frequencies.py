@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,8 +11,7 @@ import pytest
 import antinode as an
 import hp_beam
 from antinode import kernel
-from antinode.attachments import PointMass, Spring
-from antinode.frequencies import _Chains
+from antinode.attachments import Joint, PointMass, Spring
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 
@@ -76,21 +76,42 @@ def test_numpy_gives_the_same():
 
 
 @pytest.mark.usefixtures("compiled")
-@pytest.mark.parametrize("refinement", [1, 3])
-def test_compiled_halves_are_those_of_the_beam(refinement):
-    beam = steep(2)
-    mine, own = beam.chain("bending", refinement), _Chains(beam).at(refinement)
-    for name in ("length", "mass", "stiffness", "axial_force"):
-        assert getattr(own, name) == pytest.approx(getattr(mine, name), rel=1e-14)
+@pytest.mark.parametrize("interpolation", ["log", "linear", "step"])
+@pytest.mark.parametrize("acceleration", [0.0, -12.0])
+def test_attachments_and_acceleration(interpolation, acceleration):
+    beam = replace(steep(4, an.Ends("clamped", "free")), interpolation="linear")
+    if interpolation == "step":
+        tables = {name: getattr(beam, name)[:, [0, 0]] for name in STRUCTURE}
+        beam = replace(beam, **tables)
+    beam = replace(beam, interpolation=interpolation, axial_acceleration=acceleration)
+    beam = beam.with_attachments(PointMass(3.3, 40.0, 2.0, 0.1), Spring(2.0, 5e4), Joint(4.5, 1e-7))
+    fast, full = (solve(beam, 4, tolerance=1e-8) for solve in (an.natural_frequencies, modes_of))
+    assert np.all(np.abs(fast.omega2 - full[0]) <= fast.error_omega2 + full[1])
+    assert np.all(fast.error_omega2 <= 2.1e-8 * np.abs(fast.omega2))
 
 
-@pytest.mark.usefixtures("compiled")
-def test_attachments_and_acceleration():
-    beam = steep(4, an.Ends("clamped", "free"))
-    beam = beam.with_attachments(PointMass(3.3, 40.0), Spring(2.0, 5e4))
-    fast, full = an.natural_frequencies(beam, 4), an.solve_modes(beam, 4)
-    expected = [mode.omega2 for mode in full.modes if mode.number]
-    assert fast.omega2 == pytest.approx(expected[:4], rel=4e-6)
+STRUCTURE = ("mass_per_length", "bending_stiffness")
+
+
+def modes_of(beam, modes, tolerance):
+    """Return omega^2 of the elastic modes, and their errors."""
+    found = an.solve_modes(beam, modes, tolerance=tolerance, families=("bending",)).modes
+    elastic = [mode for mode in found if mode.number]
+    return np.array([[mode.omega2, mode.error_omega2] for mode in elastic]).T
+
+
+def test_a_compiled_solve_keeps_tables_of_any_memory_layout():
+    """Views, read-only and Fortran-ordered tables must not make the kernel compile again."""
+    compiled = kernel.kernel()
+    beam = steep(5)
+    expected = an.natural_frequencies(beam).omega2
+    number = len(compiled.lanes.solve_levels.signatures)
+    tables = {name: np.asfortranarray(getattr(beam, name)) for name in STRUCTURE}
+    x = np.repeat(beam.x, 2)[::2]
+    x.flags.writeable = False
+    again = an.natural_frequencies(replace(beam, x=x, **tables)).omega2
+    assert again.tolist() == expected.tolist()
+    assert len(compiled.lanes.solve_levels.signatures) == number
 
 
 @pytest.mark.parametrize(("modes", "tolerance"), [(0, 1e-6), (6, 1.0)])

@@ -37,7 +37,7 @@ RICCATI = (
     "riccati.chain",
     "riccati.roots",
     "riccati.lanes",
-    "riccati.halves",
+    "riccati.compiled",
     "riccati.loads",
     "riccati.shapes",
     "riccati.literal",

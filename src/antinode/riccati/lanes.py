@@ -16,14 +16,16 @@ polynomials in c whose coefficients depend on the segment alone (docs/theory/lan
 those of Wittrick and Williams, joint by joint in segments too short for roots of their own.
 
 All numbers are made dimensionless by the chain's length, mean EI and mean m. Numba keeps compiled
-code by the date of one file: all that is compiled together stands here.
+code by the date of one file: all that is compiled together stands here. Python's side of it is
+`riccati.compiled`.
 """
+
+# mypy: disable-error-code="no-untyped-def"
 
 from __future__ import annotations
 
 import math
-import threading
-from typing import Any, NamedTuple
+from typing import Any
 
 import numba
 import numpy as np
@@ -31,22 +33,16 @@ import numpy.typing as npt
 from numba.core import types
 from numba.extending import intrinsic
 
-from .chain import Chain, Evaluation, omega2_scale
-from .chain import evaluate as evaluate_readable
-from .roots import Eigenvalue
-
 Array = npt.NDArray[np.float64]
-Integers = npt.NDArray[np.int64]
 
 LANES = 8
 ENDS = {"free": 0, "clamped": 1, "pinned": 2, "sliding": 3}
 
 _STEP = 0.6  # wave number times length of a piece, at most: four terms in c reach rounding
 _IN_C, _IN_N = 4, 9  # terms of the series in c and in n
-_ROWS = 24  # of the table of pieces: 16 coefficients, n, 2c/omega^2, 4 ratios of units, h, 1/EI
+ROWS = 24  # of the table of pieces: 16 coefficients, n, 2c/omega^2, 4 ratios of units, h, 1/EI
 _RESCALE = 128  # pieces after which the lanes are scaled
 _HUGE = 4e6  # pieces
-_KEPT = 16  # sizes of chains whose arrays a thread keeps
 _SMALL = 1e-60  # of the minors, or 1 over it: what lies between is not scaled
 
 
@@ -91,7 +87,7 @@ _compiled = numba.njit(**_OPTIONS)
 
 
 @_compiled
-def _pieces(h, m, EI, N, omega2, starts):
+def count_pieces(h, m, EI, N, omega2, starts):
     """Set the first piece of every segment; return how many pieces reach up to |omega2|."""
     total = 0
     for k in range(len(h)):
@@ -106,7 +102,7 @@ def _pieces(h, m, EI, N, omega2, starts):
 
 
 @_compiled
-def _fill(h, m, EI, N, starts, marks, table):
+def fill_table(h, m, EI, N, starts, marks, table):
     """Fill the table: one column a piece."""
     previous_h, previous_f = 1.0, 1.0
     for k in range(len(h)):
@@ -333,7 +329,9 @@ def _sweep(table, starts, marks, points, left, right, state, sign, value):
 
 
 @_compiled
-def _evaluate(table, starts, marks, points, left, right, omega2, state, sign, found, count, value):
+def evaluate_lanes(
+    table, starts, marks, points, left, right, omega2, state, sign, found, count, value
+):
     """Evaluate a chain at any number of omega^2."""
     for first in range(0, len(omega2), LANES):
         for lane in range(LANES):
@@ -342,65 +340,6 @@ def _evaluate(table, starts, marks, points, left, right, omega2, state, sign, fo
         for lane in range(min(LANES, len(omega2) - first)):
             count[first + lane] = int(state[40 + lane])
             value[first + lane] = found[lane]
-
-
-def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
-    """Count the eigenvalues below each `omega2`: `riccati.chain.evaluate`, compiled.
-
-    Parameters
-    ----------
-    chain : Chain
-        Of the bending family; supports at its two ends belong into `left` and `right`.
-    omega2 : array_like, shape (k,)
-        [rad^2/s^2], any sign.
-
-    Returns
-    -------
-    Evaluation
-        The characteristic function is scaled to the last minors of each omega^2: bounded by 1.
-    """
-    lanes = np.atleast_1d(np.asarray(omega2, dtype=float))
-    n = len(chain.length)
-    if chain.family != "bending" or any(p.holds and p.node in (0, n) for p in chain.points):
-        return evaluate_readable(chain, lanes)
-    L, EI0, m0 = _units(chain)
-    marks, points = _point_table(chain, L, EI0, m0)
-    own = chain.length / L, chain.mass / m0, chain.stiffness / EI0, chain.axial_force * L * L / EI0
-    scaled, starts = lanes * (m0 * L**4 / EI0), np.empty(n + 1, np.int64)
-    pieces = _pieces(*own, np.max(np.abs(scaled)), starts)
-    if pieces < 0:
-        worst = float(np.max(np.abs(lanes)))
-        raise FloatingPointError(f"omega^2 = {worst:g} rad^2/s^2 is out of reach for this chain")
-    table = np.empty((_ROWS, pieces))
-    _fill(*own, starts, marks, table)
-    count, value = np.empty(len(lanes), np.int64), np.empty(len(lanes))
-    _evaluate(
-        *(table, starts, marks, points, ENDS[chain.left], ENDS[chain.right], scaled),
-        *(np.zeros(8 * LANES), np.zeros(LANES), np.zeros(LANES), count, value),
-    )
-    return Evaluation(count, value)
-
-
-def _units(chain: Chain) -> tuple[float, float, float]:
-    """Return length [m], EI [N m^2] and mass per length [kg/m] that make a chain dimensionless."""
-    L = float(np.sum(chain.length))
-    return L, *chain.reference()
-
-
-def _point_table(chain: Chain, L: float, EI0: float, m0: float) -> tuple[Integers, Array]:
-    """Return which point sits at every node (-1: none), and the points' dimensionless numbers."""
-    marks = np.full(len(chain.length) + 1, -1)
-    table = np.zeros((len(chain.points), 8))
-    for k, p in enumerate(chain.points):
-        marks[p.node] = k
-        inertia = p.mass * p.offset**2 + p.inertia
-        turning = p.rotational_spring + p.own_load * p.offset if p.loads else 0.0
-        table[k] = (
-            *(p.mass / (m0 * L), p.mass * p.offset / (m0 * L**2), inertia / (m0 * L**3)),
-            *(p.spring * L**3 / EI0, turning * L / EI0),
-            *(float(0 in p.holds), float(1 in p.holds), p.compliance * EI0 / L),
-        )
-    return marks, table
 
 
 # --- roots ------------------------------------------------------------------------------------
@@ -412,12 +351,12 @@ def _point_table(chain: Chain, L: float, EI0: float, m0: float) -> tuple[Integer
 CERTIFIED, OUT_OF_REACH, NOT_BRACKETED, NOT_FINITE, INVALID, CLUSTERED = 0, 1, 2, 3, 4, 5
 TABLE_TOO_SMALL = -1
 
-_MOST_SAMPLES = 256, 64  # and more for every root
+MOST_SAMPLES = 256, 64  # and more for every root
 _MOST_PASSES = 100
 _EPSILON = 64 * float(np.finfo(float).eps)  # rounding of the minors, relative
 _MARGIN = 0.45  # half the distance of the certifying samples, in widths
 _SURE = 0.3  # share of a bracket that rounding may take
-_PARTED = 1e-7  # relative distance of roots below which frames part them, and their shapes
+PARTED = 1e-7  # relative distance of roots below which frames part them, and their shapes
 _NEIGHBOURS = 4  # roots on each side that are divided out
 
 
@@ -661,7 +600,7 @@ def _watch(low, high, before, stuck, root, centre):
 
 
 @_compiled
-def _solve(
+def find_roots(
     h, m, EI, N, ends, below, warm, root, slope, width, low, high, counts, rounding, table, work,
     reach,
 ):  # fmt: skip
@@ -699,12 +638,12 @@ def _solve(
             largest = max(largest, abs(asked[k]))
         if largest > reach:
             reach = 1.2 * largest
-            pieces = _pieces(h, m, EI, N, reach, starts)
+            pieces = count_pieces(h, m, EI, N, reach, starts)
             if pieces < 0:
                 return OUT_OF_REACH, total
             if pieces > table.shape[1]:
                 return TABLE_TOO_SMALL, pieces
-            _fill(h, m, EI, N, starts, marks, table)
+            fill_table(h, m, EI, N, starts, marks, table)
         for first in range(0, number, LANES):
             for lane in range(LANES):
                 state[48 + lane] = asked[min(first + lane, number - 1)]
@@ -744,30 +683,6 @@ def _solve(
     return NOT_BRACKETED, total
 
 
-def _workspace(n: int, roots: int) -> tuple[Array | Integers, ...]:
-    """Return the arrays that `_solve` writes into."""
-    most = _MOST_SAMPLES[0] + _MOST_SAMPLES[1] * roots
-    return (
-        np.empty((9, most)),
-        np.empty(most),
-        np.zeros(most, np.int64),
-        np.empty(n + 1, np.int64),
-        np.full(n + 1, -1),
-        np.empty((0, 8)),
-        np.zeros(8 * LANES),
-        np.zeros(LANES),
-        np.zeros(LANES),
-        np.zeros(roots),
-        np.zeros(roots, np.int64),
-        np.zeros((roots, 2), np.int64),
-        np.zeros((roots, 4), np.int64),
-        np.zeros(4, np.int64),
-        np.zeros(4),
-        np.zeros(4),
-        np.zeros(2),
-    )
-
-
 @_compiled
 def _is_valid(h, m, EI, N):
     """Tell whether lengths, masses and stiffnesses are positive, and all is finite."""
@@ -791,7 +706,7 @@ def _dimensionless(h, m, EI, N, own):
 
 
 @_compiled
-def _scale(own):
+def make_dimensionless(own):
     """Make the rows h, m, EI, N of a chain dimensionless; return length, mean m and mean EI."""
     L, m0, EI0, n = 0.0, 0.0, 0.0, own.shape[1]
     for k in range(n):
@@ -803,7 +718,7 @@ def _scale(own):
 
 
 @_compiled
-def _solve_rows(
+def solve_rows(
     length, mass, stiffness, force, ends, below, width, first, warm, current, slope, own, table,
     work, root, low, high, counts, rounding, reason, total
 ):  # fmt: skip
@@ -815,7 +730,7 @@ def _solve_rows(
             continue
         unit = _dimensionless(length[i], mass[b], stiffness[b], force[b], own)
         for _attempt in range(2):
-            reason[b], more = _solve(
+            reason[b], more = find_roots(
                 *(own[0], own[1], own[2], own[3], ends, below, warm[0], current, slope),
                 *(width, low[b], high[b], counts[b], rounding[b], table, work, 0.0),
             )
@@ -833,64 +748,13 @@ def _solve_rows(
     return len(mass), 0
 
 
-def solve_chains(
-    length: Array,
-    mass: Array,
-    stiffness: Array,
-    force: Array,
-    ends: Integers,
-    below: int,
-    width: float,
-    results: tuple[Array, Array, Array, Integers, Array],
-) -> tuple[Integers, Integers]:
-    """Solve chain after chain, each from the roots of the one before.
-
-    Parameters
-    ----------
-    length, mass, stiffness, force : array, shape (chains, n)
-        As in `Chain`, each row a chain; one row of lengths may serve all.
-    ends : array of int, shape (2,)
-        Numbers of `ENDS`.
-    below : int
-        Eigenvalues below those wanted: the rigid ones.
-    width : float
-        Relative width of the brackets in omega^2.
-    results : tuple of array
-        Set to the roots, shape (chains, roots), the lower and upper ends of their brackets, their
-        counts, shape (chains, roots, 2), and the rounding; [rad^2/s^2].
-
-    Returns
-    -------
-    reason, total : array of int, shape (chains,)
-        0 where all roots are certified, and the number of evaluations.
-    """
-    chains, n = mass.shape
-    roots = results[0].shape[1]
-    reason, total = np.zeros(chains, np.int64), np.zeros(chains, np.int64)
-    warm, current, slope, own = (
-        np.zeros(1, bool),
-        np.zeros(roots),
-        np.zeros(roots),
-        np.empty((4, n)),
-    )
-    table, work, row = np.empty((_ROWS, n + n // 2 + 8)), _workspace(n, roots), 0
-    while row < chains:
-        row, columns = _solve_rows(
-            *(length, mass, stiffness, force, ends, below, width, row, warm, current, slope),
-            *(own, table, work, *results, reason, total),
-        )
-        if row < chains:
-            warm[0], table = False, np.empty((_ROWS, columns + columns // 2))
-    return reason, total
-
-
 @_compiled
-def _solve_guessed(
+def certify_rows(
     own, force, ends, below, width, guess, root, low, high, counts, rounding, reason, total,
     table, work, most, slope,
 ):  # fmt: skip
     """Certify the guesses for chains that differ in axial force alone; refine those that fail."""
-    L, m0, EI0 = _scale(own)
+    L, m0, EI0 = make_dimensionless(own)
     unit, pull = EI0 / (m0 * L * L * L * L), L * L / EI0
     starts, marks, reach, n = work[3], work[4], 0.0, own.shape[1]
     for b in range(len(force)):
@@ -912,14 +776,14 @@ def _solve_guessed(
             reach = 1.2 * highest
             for k in range(n):
                 most[k] = max(most[k], 1.1 * abs(own[3, k]))
-            pieces = _pieces(own[0], own[1], own[2], most, reach, starts)
+            pieces = count_pieces(own[0], own[1], own[2], most, reach, starts)
             if pieces < 0 or pieces > table.shape[1]:
                 reason[b], reach = NOT_BRACKETED, 0.0
                 continue
-            _fill(own[0], own[1], own[2], own[3], starts, marks, table)
+            fill_table(own[0], own[1], own[2], own[3], starts, marks, table)
         else:
             _fill_force(own[3], starts, table)
-        reason[b], more = _solve(
+        reason[b], more = find_roots(
             *(own[0], own[1], own[2], own[3], ends, below, True, root[b], slope, width),
             *(low[b], high[b], counts[b], rounding[b], table, work, reach),
         )
@@ -932,202 +796,193 @@ def _solve_guessed(
             rounding[b, k] *= unit
 
 
-def certify_guesses(
-    chain: tuple[Array, Array, Array],
-    force: Array,
-    ends: Integers,
-    below: int,
-    width: float,
-    guess: Array,
-    results: tuple[Array, Array, Array, Integers, Array],
-) -> tuple[Integers, Integers]:
-    """Certify guesses for chains of one structure under many axial forces.
+# --- beams that vary inside intervals ---------------------------------------------------------
+# Each step of an interval is two uniform half-segments whose 1/EI, m and N are averages of the
+# values at its two Gauss points with weights 1/2 +- sqrt(3)/3, the larger for the nearer point:
+# what `Beam.chain` makes.
 
-    Parameters
-    ----------
-    chain : tuple of array, shape (n,)
-        Length, mass and stiffness of all.
-    force : array, shape (chains, n)
-    guess : array, shape (chains, roots)
-        [rad^2/s^2].
-    ends, below, width, results
-        As for `solve_chains`.
+GAUSS = 0.5 - math.sqrt(3) / 6
+NEAR = 0.5 + math.sqrt(3) / 3
+CHAIN_TOO_SMALL, TOO_MANY_STEPS, NOT_CONVERGED = -2, 6, 7
 
-    Returns
-    -------
-    reason, total : array of int, shape (chains,)
-        0 where all roots are certified, and the number of evaluations: two a root where the guess
-        held.
+MOST_LEVELS = 7
+_SHARE = 1 / 4  # of the last change of the extrapolated omega^2: its error falls by 16 or more
+
+
+@_compiled
+def _at(a, b, t, log):
+    return a * (b / a) ** t if log else a + (b - a) * t
+
+
+@_compiled
+def _mass_until(a, b, h, t, log):
+    """Return the mass of the first part of an interval: a share t of its length h."""
+    if not log:
+        return h * t * (a + (b - a) * t / 2)
+    rate = math.log(b / a) * t
+    return h * t * a * (math.expm1(rate) / rate if abs(rate) > 1e-12 else 1.0)
+
+
+@_compiled
+def _varying(m, EI, N, acceleration, varies):
+    """Set which intervals something varies in; return whether it does anywhere."""
+    anywhere = False
+    for k in range(len(m)):
+        same = m[k, 0] == m[k, 1] and EI[k, 0] == EI[k, 1] and N[k, 0] == N[k, 1]
+        varies[k] = 0 if same and acceleration == 0.0 else 1
+        anywhere = anywhere or varies[k] == 1
+    return anywhere
+
+
+@_compiled
+def coarsest_steps(x, m, EI, varies, log, limits, interval, steps):
+    """Halve steps in which something varies until none is steep or long; return their number.
+
+    Sets the interval of every step; in `steps` its start and size, as shares of the interval.
     """
-    chains, n = force.shape
-    roots = guess.shape[1]
-    reason, total = np.zeros(chains, np.int64), np.zeros(chains, np.int64)
-    own = np.zeros((4, n))
-    own[0], own[1], own[2] = chain
-    _solve_guessed(
-        *(own, force, ends, below, width, guess, *results, reason, total),
-        *(_scratch.table(n + 64), _scratch.work(n, roots), np.zeros(n), np.zeros(roots)),
-    )
-    return reason, total
+    steepest, longest, halvings = limits
+    start, size, phase, steep = steps[0], steps[1], steps[2], steps[3]
+    number = len(x) - 1
+    for k in range(number):
+        interval[k], start[k], size[k] = k, 0.0, 1.0
+    for _ in range(halvings):
+        total = 0.0
+        for i in range(number):
+            k, left, right = interval[i], start[i], start[i] + size[i]
+            ma, mb = _at(m[k, 0], m[k, 1], left, log), _at(m[k, 0], m[k, 1], right, log)
+            sa, sb = _at(EI[k, 0], EI[k, 1], left, log), _at(EI[k, 0], EI[k, 1], right, log)
+            steep[i] = max(ma / mb, mb / ma, sa / sb, sb / sa)
+            wave = math.sqrt(math.sqrt(ma * mb) / math.sqrt(sa * sb))
+            phase[i] = math.sqrt(wave) * (x[k + 1] - x[k]) * size[i]
+            total += phase[i]
+        more = 0
+        for i in range(number):
+            coarse = steep[i] > steepest or phase[i] > longest * total
+            steep[i] = 1.0 if coarse and varies[interval[i]] else 0.0
+            more += int(steep[i])
+        if more == 0 or number + more > len(interval):
+            return number if more == 0 else -1
+        to = number + more - 1
+        for i in range(number - 1, -1, -1):
+            k, left, whole = interval[i], start[i], size[i]
+            if steep[i] == 1.0:
+                interval[to], start[to], size[to] = k, left + whole / 2, whole / 2
+                interval[to - 1], start[to - 1], size[to - 1] = k, left, whole / 2
+                to -= 2
+            else:
+                interval[to], start[to], size[to] = k, left, whole
+                to -= 1
+        number += more
+    return number
 
 
-class Roots(NamedTuple):
-    """Consecutive eigenvalues of one chain, each with its certificate, and how they were found."""
+@_compiled
+def make_halves(
+    x, m, EI, N, acceleration, mass_left, varies, log, interval, steps, number, refinement, first,
+    own,
+):  # fmt: skip
+    """Set h, m, EI and N of all segments, and the first of every interval; return their number."""
+    start, size, i, last = steps[0], steps[1], 0, -1
+    for s in range(number):
+        k = interval[s]
+        h = x[k + 1] - x[k]
+        if k != last:
+            first[k], last = i, k
+        if not varies[k]:
+            own[0, i], own[1, i] = h * size[s], m[k, 0]
+            own[2, i], own[3, i] = EI[k, 0], N[k, 0]
+            i += 1
+            continue
+        step = size[s] / refinement
+        for r in range(refinement):
+            t1, t2 = start[s] + step * (r + GAUSS), start[s] + step * (r + 1.0 - GAUSS)
+            m1, m2 = _at(m[k, 0], m[k, 1], t1, log), _at(m[k, 0], m[k, 1], t2, log)
+            f1 = 1.0 / _at(EI[k, 0], EI[k, 1], t1, log)
+            f2 = 1.0 / _at(EI[k, 0], EI[k, 1], t2, log)
+            n1, n2 = _at(N[k, 0], N[k, 1], t1, False), _at(N[k, 0], N[k, 1], t2, False)
+            if acceleration != 0.0:
+                n1 += acceleration * (mass_left[k] + _mass_until(m[k, 0], m[k, 1], h, t1, log))
+                n2 += acceleration * (mass_left[k] + _mass_until(m[k, 0], m[k, 1], h, t2, log))
+            for half in range(2):
+                w = NEAR if half == 0 else 1.0 - NEAR
+                own[0, i], own[1, i] = h * step / 2, w * m1 + (1.0 - w) * m2
+                own[2, i] = 1.0 / (w * f1 + (1.0 - w) * f2)
+                own[3, i] = w * n1 + (1.0 - w) * n2
+                i += 1
+    first[len(m)] = i
+    return i
 
-    reason: int
-    omega2: Array
-    low: Array
-    high: Array
-    counts: Integers
-    rounding: Array
-    slope: Array
-    """Of the divided characteristic function: a start for a chain that resembles this one."""
-    evaluations: int
+
+@_compiled
+def _refined(levels, level, tolerance, error, better):
+    """Extrapolate twice and compare; return whether every omega^2 is within the tolerance."""
+    sure = True
+    for k in range(levels.shape[1]):
+        a, b, c = levels[level - 2, k], levels[level - 1, k], levels[level, k]
+        better[k] = c + (c - b) / 15
+        error[k] = _SHARE * abs(better[k] - (b + (b - a) / 15))
+        sure = sure and error[k] <= 2.0 * tolerance * abs(better[k])
+    return sure
 
 
-class SingleChain:
-    """One chain made dimensionless, ready for evaluations and root searches.
+@_compiled
+def solve_levels(
+    x, m, EI, N, acceleration, mass_left, log, limits, ends, below, refinement, tolerance, width,
+    at, points, units, better, error, low, high, counts, rounding, evaluations,
+    varies, first, interval, steps, own, starts, marks, levels, slope, table, work,
+):  # fmt: skip
+    """Solve a beam with steps halved each time, until two extrapolated results agree.
 
-    Parameters
-    ----------
-    chain : Chain
-        Of the bending family, without supports in `points` at its two ends.
+    `at` holds the breakpoints of the points. Returns the reason and the number of segments of the
+    finest chain; or what is too small, and the size it needs. omega^2 and all else in units of the
+    beam: length, mass per length and EI are given in `units`.
     """
-
-    def __init__(self, chain: Chain) -> None:
-        own = np.empty((4, len(chain.length)))
-        own[0], own[1] = chain.length, chain.mass
-        own[2], own[3] = chain.stiffness, chain.axial_force
-        L, m0, EI0 = _scale(own)
-        self.own, self.unit = own, EI0 / (m0 * L**4)
-        self.left, self.right = ENDS[chain.left], ENDS[chain.right]
-        self.points: tuple[Integers, Array] | None = None
-        if chain.points:
-            self.points = _point_table(chain, L, EI0, m0)
-
-    def _work(self, roots: int) -> tuple[Any, ...]:
-        work = _scratch.work(self.own.shape[1], roots)
-        return work if self.points is None else (*work[:4], *self.points, *work[6:])
-
-    def count(self, omega2: Array) -> Integers:
-        """Return how many eigenvalues lie below each omega^2 [rad^2/s^2]."""
-        scaled, work = omega2 / self.unit, self._work(1)
-        pieces = _pieces(*self.own, float(np.max(np.abs(scaled))), work[3])
-        if pieces < 0:
-            raise FloatingPointError("omega^2 is out of reach for this chain")
-        table = _scratch.table(pieces)
-        _fill(*self.own, work[3], work[4], table)
-        count, value = np.empty(len(scaled), np.int64), np.empty(len(scaled))
-        _evaluate(table, *work[3:6], self.left, self.right, scaled, *work[6:9], count, value)
-        return count
-
-    def roots(self, below: int, number: int, width: float, start: Roots | None = None) -> Roots:
-        """Bracket and certify eigenvalues below + 1 ... below + number.
-
-        Parameters
-        ----------
-        width : float
-            Relative width of the brackets in omega^2.
-        start : Roots, optional
-            As many of a chain that resembles this one, to start from.
-        """
-        work, ends = self._work(number), np.array([self.left, self.right])
-        values, counts = np.zeros((5, number)), np.zeros((number, 2), np.int64)
-        root, slope, low, high, rounding = values
-        warm, total, columns = start is not None, 0, self.own.shape[1] + 8
-        if start is not None:
-            root[:], slope[:] = start.omega2 / self.unit, start.slope
+    L, m0, EI0 = units[0], units[1], units[2]
+    varying = _varying(m, EI, N, acceleration, varies)
+    number = coarsest_steps(x, m, EI, varies, log, limits, interval, steps)
+    if number < 0:
+        return TOO_MANY_STEPS, 0
+    root, evaluations[0] = levels[MOST_LEVELS], 0
+    for k in range(len(root)):
+        root[k] = 0.0
+    for level in range(MOST_LEVELS):
+        size = 0
+        for i in range(number):
+            size += 2 * refinement if varies[interval[i]] else 1
+        if size > own.shape[1]:
+            return CHAIN_TOO_SMALL, size
+        n = make_halves(
+            *(x, m, EI, N, acceleration, mass_left, varies, log, interval, steps, number),
+            *(refinement, first, own),
+        )
+        for i in range(n):
+            own[0, i], own[1, i] = own[0, i] / L, own[1, i] / m0
+            own[2, i], own[3, i] = own[2, i] / EI0, own[3, i] * (L * L / EI0)
+        for i in range(n + 1):
+            marks[i] = -1
+        for i in range(len(at)):
+            marks[first[at[i]]] = i
+        arrays = (*work[:3], starts[: n + 1], marks[: n + 1], points, *work[6:])
+        warm = level > 0
         while True:
-            reason, more = _solve(
-                *(*self.own, ends, below, warm, root, slope, width, low, high, counts, rounding),
-                *(_scratch.table(columns), work, 0.0),
+            reason, more = find_roots(
+                *(own[0, :n], own[1, :n], own[2, :n], own[3, :n], ends, below, warm, root, slope),
+                *(width, low, high, counts, rounding, table, arrays, 0.0),
             )
             if reason == TABLE_TOO_SMALL:
-                columns, warm = more, False
-                continue
-            total += more
-            if reason in (CERTIFIED, CLUSTERED) or not warm:
+                return reason, more
+            evaluations[0] += more
+            if reason == CERTIFIED or not warm:
                 break
             warm = False
-        kept = slope.copy()
-        values *= self.unit
-        return Roots(reason, root, low, high, counts, rounding, kept, total)
-
-
-class _Scratch(threading.local):
-    """Arrays that root searches of one thread write into, kept from one to the next."""
-
-    def __init__(self) -> None:
-        self.kept: dict[tuple[int, int], tuple[Any, ...]] = {}
-        self.columns = np.empty((_ROWS, 0))
-
-    def work(self, n: int, roots: int) -> tuple[Any, ...]:
-        if (n, roots) not in self.kept:
-            if len(self.kept) == _KEPT:
-                self.kept.clear()
-            self.kept[n, roots] = _workspace(n, roots)
-        return self.kept[n, roots]
-
-    def table(self, columns: int) -> Array:
-        if self.columns.shape[1] < columns:
-            self.columns = np.empty((_ROWS, columns + columns // 2))
-        return self.columns
-
-
-_scratch = _Scratch()
-
-
-def find_eigenvalues(
-    chain: Chain, wanted: int, *, zeros: int = 0, width: float = 1e-10
-) -> list[Eigenvalue] | None:
-    """Return the lowest eigenvalues of a chain as `riccati.roots.find_eigenvalues` does.
-
-    None where determinants do not do: longitudinally, at springs or supports of the ends, and
-    for modes that nearly coincide; the frames do there.
-    """
-    n = len(chain.length)
-    if chain.family != "bending" or any(p.holds and p.node in (0, n) for p in chain.points):
-        return None
-    ready = SingleChain(chain)
-    floor = _floor(ready, omega2_scale(chain), zeros)
-    if floor is None:
-        return None
-    distance, negative = floor
-    found: list[Eigenvalue] = []
-    parts = [(0, negative), (negative + zeros, max(wanted - negative - zeros, 0))]
-    for below, number in parts:
-        if below and zeros:
-            counts = (negative, below)
-            found += [Eigenvalue(k + 1, 0.0, (-distance, distance), counts) for k in range(*counts)]
-        if number:
-            roots = ready.roots(below, number, width)
-            near = np.diff(roots.omega2) <= _PARTED * np.abs(roots.omega2[1:])
-            if roots.reason != CERTIFIED or np.any(near):
-                return None
-            found += _listed(roots, below)
-    return found
-
-
-def _floor(ready: SingleChain, scale: float, zeros: int) -> tuple[float, int] | None:
-    """Return the least distance from zero at which the counts make sense, and the lower count."""
-    floors = scale * 10.0 ** np.arange(-16, -12)
-    count = ready.count(np.concatenate([-floors, floors]))
-    if not zeros:
-        return (0.0, int(count[4])) if count[0] == count[4] else None
-    for floor, low, high in zip(floors, count[:4], count[4:], strict=True):
-        if high - low >= zeros:
-            return (float(floor), int(low)) if high - low == zeros else None
-    return None
-
-
-def _listed(roots: Roots, below: int) -> list[Eigenvalue]:
-    columns = (values.tolist() for values in roots[1:5])
-    return [
-        Eigenvalue(below + k + 1, omega2, (low, high), (counts[0], counts[1]))
-        for k, (omega2, low, high, counts) in enumerate(zip(*columns, strict=True))
-    ]
-
-
-def compiled_here() -> bool:
-    """Tell whether this process had to compile the kernel: it was not in numba's cache."""
-    return bool(_solve_rows.stats.cache_misses or _solve.stats.cache_misses)
+        if reason != CERTIFIED:
+            return reason, n
+        for k in range(len(root)):
+            levels[level, k] = root[k]
+            better[k], error[k] = root[k], 0.0
+            if level > 0:
+                root[k] += (root[k] - levels[level - 1, k]) / 16
+        if not varying or (level > 1 and _refined(levels, level, tolerance, error, better)):
+            return CERTIFIED, n
+        refinement *= 2
+    return NOT_CONVERGED, 0

@@ -1,0 +1,454 @@
+"""Python's side of the compiled chain: arrays in and out, one call for each question.
+
+`riccati.lanes` holds all that is compiled; `kernel.kernel` loads this module where it pays.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import lanes
+from .chain import Chain, Evaluation, omega2_scale
+from .chain import evaluate as evaluate_readable
+from .lanes import CERTIFIED, ENDS, LANES, TABLE_TOO_SMALL
+from .points import Point
+from .roots import Eigenvalue
+
+Array = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+
+_KEPT = 16  # sizes of chains whose arrays a thread keeps
+_MOST_STEPS = 4096  # coarsest ones of a beam
+
+
+def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
+    """Count the eigenvalues below each `omega2`: `riccati.chain.evaluate`, compiled.
+
+    Parameters
+    ----------
+    chain : Chain
+        Of the bending family; supports at its two ends belong into `left` and `right`.
+    omega2 : array_like, shape (k,)
+        [rad^2/s^2], any sign.
+
+    Returns
+    -------
+    Evaluation
+        The characteristic function is scaled to the last minors of each omega^2: bounded by 1.
+    """
+    asked = np.atleast_1d(np.asarray(omega2, dtype=float))
+    n = len(chain.length)
+    if chain.family != "bending" or any(p.holds and p.node in (0, n) for p in chain.points):
+        return evaluate_readable(chain, asked)
+    L, EI0, m0 = _units(chain)
+    marks, points = _point_table(chain, L, EI0, m0)
+    own = chain.length / L, chain.mass / m0, chain.stiffness / EI0, chain.axial_force * L * L / EI0
+    scaled, starts = asked * (m0 * L**4 / EI0), np.empty(n + 1, np.int64)
+    pieces = lanes.count_pieces(*own, np.max(np.abs(scaled)), starts)
+    if pieces < 0:
+        worst = float(np.max(np.abs(asked)))
+        raise FloatingPointError(f"omega^2 = {worst:g} rad^2/s^2 is out of reach for this chain")
+    table = np.empty((lanes.ROWS, pieces))
+    lanes.fill_table(*own, starts, marks, table)
+    count, value = np.empty(len(asked), np.int64), np.empty(len(asked))
+    lanes.evaluate_lanes(
+        *(table, starts, marks, points, ENDS[chain.left], ENDS[chain.right], scaled),
+        *(np.zeros(8 * LANES), np.zeros(LANES), np.zeros(LANES), count, value),
+    )
+    return Evaluation(count, value)
+
+
+def _units(chain: Chain) -> tuple[float, float, float]:
+    """Return length [m], EI [N m^2] and mass per length [kg/m] that make a chain dimensionless."""
+    L = float(np.sum(chain.length))
+    return L, *chain.reference()
+
+
+def _point_table(chain: Chain, L: float, EI0: float, m0: float) -> tuple[Integers, Array]:
+    """Return which point sits at every node (-1: none), and the points' dimensionless numbers."""
+    marks = np.full(len(chain.length) + 1, -1)
+    for k, point in enumerate(chain.points):
+        marks[point.node] = k
+    return marks, _point_rows(chain.points, L, EI0, m0)
+
+
+def _point_rows(points: Sequence[Point], L: float, EI0: float, m0: float) -> Array:
+    """Return what `lanes` reads of each point, dimensionless, shape (points, 8)."""
+    table = np.zeros((len(points), 8))
+    for k, p in enumerate(points):
+        inertia = p.mass * p.offset**2 + p.inertia
+        turning = p.rotational_spring + p.own_load * p.offset if p.loads else 0.0
+        table[k] = (
+            *(p.mass / (m0 * L), p.mass * p.offset / (m0 * L**2), inertia / (m0 * L**3)),
+            *(p.spring * L**3 / EI0, turning * L / EI0),
+            *(float(0 in p.holds), float(1 in p.holds), p.compliance * EI0 / L),
+        )
+    return table
+
+
+def _workspace(n: int, roots: int) -> tuple[Array | Integers, ...]:
+    """Return the arrays that `lanes.find_roots` writes into."""
+    most = lanes.MOST_SAMPLES[0] + lanes.MOST_SAMPLES[1] * roots
+    return (
+        np.empty((9, most)),
+        np.empty(most),
+        np.zeros(most, np.int64),
+        np.empty(n + 1, np.int64),
+        np.full(n + 1, -1),
+        np.empty((0, 8)),
+        np.zeros(8 * LANES),
+        np.zeros(LANES),
+        np.zeros(LANES),
+        np.zeros(roots),
+        np.zeros(roots, np.int64),
+        np.zeros((roots, 2), np.int64),
+        np.zeros((roots, 4), np.int64),
+        np.zeros(4, np.int64),
+        np.zeros(4),
+        np.zeros(4),
+        np.zeros(2),
+    )
+
+
+def solve_chains(
+    length: Array,
+    mass: Array,
+    stiffness: Array,
+    force: Array,
+    ends: Integers,
+    below: int,
+    width: float,
+    results: tuple[Array, Array, Array, Integers, Array],
+) -> tuple[Integers, Integers]:
+    """Solve chain after chain, each from the roots of the one before.
+
+    Parameters
+    ----------
+    length, mass, stiffness, force : array, shape (chains, n)
+        As in `Chain`, each row a chain; one row of lengths may serve all.
+    ends : array of int, shape (2,)
+        Numbers of `ENDS`.
+    below : int
+        Eigenvalues below those wanted: the rigid ones.
+    width : float
+        Relative width of the brackets in omega^2.
+    results : tuple of array
+        Set to the roots, shape (chains, roots), the lower and upper ends of their brackets, their
+        counts, shape (chains, roots, 2), and the rounding; [rad^2/s^2].
+
+    Returns
+    -------
+    reason, total : array of int, shape (chains,)
+        0 where all roots are certified, and the number of evaluations.
+    """
+    chains, n = mass.shape
+    roots = results[0].shape[1]
+    reason, total = np.zeros(chains, np.int64), np.zeros(chains, np.int64)
+    warm, current, slope, own = (
+        np.zeros(1, bool),
+        np.zeros(roots),
+        np.zeros(roots),
+        np.empty((4, n)),
+    )
+    table, work, row = np.empty((lanes.ROWS, n + n // 2 + 8)), _workspace(n, roots), 0
+    while row < chains:
+        row, columns = lanes.solve_rows(
+            *(length, mass, stiffness, force, ends, below, width, row, warm, current, slope),
+            *(own, table, work, *results, reason, total),
+        )
+        if row < chains:
+            warm[0], table = False, np.empty((lanes.ROWS, columns + columns // 2))
+    return reason, total
+
+
+def certify_guesses(
+    chain: tuple[Array, Array, Array],
+    force: Array,
+    ends: Integers,
+    below: int,
+    width: float,
+    guess: Array,
+    results: tuple[Array, Array, Array, Integers, Array],
+) -> tuple[Integers, Integers]:
+    """Certify guesses for chains of one structure under many axial forces.
+
+    Parameters
+    ----------
+    chain : tuple of array, shape (n,)
+        Length, mass and stiffness of all.
+    force : array, shape (chains, n)
+    guess : array, shape (chains, roots)
+        [rad^2/s^2].
+    ends, below, width, results
+        As for `solve_chains`.
+
+    Returns
+    -------
+    reason, total : array of int, shape (chains,)
+        0 where all roots are certified, and the number of evaluations: two a root where the guess
+        held.
+    """
+    chains, n = force.shape
+    roots = guess.shape[1]
+    reason, total = np.zeros(chains, np.int64), np.zeros(chains, np.int64)
+    own = np.zeros((4, n))
+    own[0], own[1], own[2] = chain
+    lanes.certify_rows(
+        *(own, force, ends, below, width, guess, *results, reason, total),
+        *(_scratch.table(n + 64), _scratch.work(n, roots), np.zeros(n), np.zeros(roots)),
+    )
+    return reason, total
+
+
+class Roots(NamedTuple):
+    """Consecutive eigenvalues, each with its certificate [rad^2/s^2], and how they were found."""
+
+    reason: int
+    omega2: Array
+    low: Array
+    high: Array
+    counts: Integers
+    rounding: Array
+    evaluations: int
+    error: Array
+    """Of the representation by segments; zero for a chain."""
+    segments: int
+    """Of the finest chain."""
+
+
+class Tables(NamedTuple):
+    """A beam in bending, as `lanes.solve_levels` takes it."""
+
+    x: Array
+    """Breakpoints, shape (n + 1,)."""
+    mass: Array
+    """As are stiffness and axial force: at both ends of every interval, shape (n, 2)."""
+    stiffness: Array
+    axial_force: Array
+    acceleration: float
+    """Times the mass left of x, it adds to the axial force."""
+    mass_left: Array
+    """Of every breakpoint; not read without acceleration."""
+    logarithmic: bool
+    limits: tuple[float, float, int]
+    """Steepest ratio over a step, longest share of the phase, and most halvings."""
+    left: str
+    right: str
+    points: Sequence[Point]
+    """Their nodes are numbers of breakpoints."""
+
+
+def solve_beam(
+    beam: Tables, below: int, number: int, refinement: int, tolerance: float, width: float
+) -> Roots:
+    """Bracket and certify eigenvalues below + 1 ... below + number of a beam.
+
+    Steps are halved until two extrapolated results agree; the brackets are those of the last chain.
+
+    Parameters
+    ----------
+    refinement : int
+        Number by which the coarsest steps are divided in the first chain.
+    tolerance : float
+        Relative error of the frequencies.
+    width : float
+        Relative width of the brackets in omega^2.
+    """
+    x, m, EI, N = (np.array(table, dtype=float, order="C") for table in beam[:4])
+    L, m0, EI0 = float(x[-1] - x[0]), float(m.sum() / m.size), float(EI.sum() / EI.size)
+    values, counts = np.zeros((5, number)), np.zeros((number, 2), np.int64)
+    better, error, low, high, rounding = values
+    evaluations = np.zeros(1, np.int64)
+    at = np.array([point.node for point in beam.points], dtype=np.int64)
+    ends, columns, segments = np.array([ENDS[beam.left], ENDS[beam.right]]), 0, 64
+    while True:
+        reason, size = lanes.solve_levels(
+            *(x, m, EI, N, beam.acceleration, beam.mass_left, beam.logarithmic, beam.limits),
+            *(ends, below, refinement, tolerance, width),
+            *(at, _point_rows(beam.points, L, EI0, m0), np.array([L, m0, EI0])),
+            *(better, error, low, high, counts, rounding, evaluations),
+            *_scratch.levels(len(m), segments, number),
+            *(_scratch.table(columns), _scratch.work(1, number)),
+        )
+        if reason == TABLE_TOO_SMALL:
+            columns = size
+        elif reason == lanes.CHAIN_TOO_SMALL:
+            segments = size
+        else:
+            break
+    values *= EI0 / (m0 * L**4)
+    return Roots(
+        *(reason, better, low, high, counts, rounding, int(evaluations[0]), error, size),
+    )
+
+
+class SingleChain:
+    """One chain made dimensionless, ready for evaluations and root searches.
+
+    Parameters
+    ----------
+    chain : Chain
+        Of the bending family, without supports in `points` at its two ends.
+    """
+
+    def __init__(self, chain: Chain) -> None:
+        own = np.empty((4, len(chain.length)))
+        own[0], own[1] = chain.length, chain.mass
+        own[2], own[3] = chain.stiffness, chain.axial_force
+        L, m0, EI0 = lanes.make_dimensionless(own)
+        self.own, self.unit = own, EI0 / (m0 * L**4)
+        self.left, self.right = ENDS[chain.left], ENDS[chain.right]
+        self.points: tuple[Integers, Array] | None = None
+        if chain.points:
+            self.points = _point_table(chain, L, EI0, m0)
+
+    def _work(self, roots: int) -> tuple[Any, ...]:
+        work = _scratch.work(self.own.shape[1], roots)
+        return work if self.points is None else (*work[:4], *self.points, *work[6:])
+
+    def count(self, omega2: Array) -> Integers:
+        """Return how many eigenvalues lie below each omega^2 [rad^2/s^2]."""
+        scaled, work = omega2 / self.unit, self._work(1)
+        pieces = lanes.count_pieces(*self.own, float(np.max(np.abs(scaled))), work[3])
+        if pieces < 0:
+            raise FloatingPointError("omega^2 is out of reach for this chain")
+        table = _scratch.table(pieces)
+        lanes.fill_table(*self.own, work[3], work[4], table)
+        count, value = np.empty(len(scaled), np.int64), np.empty(len(scaled))
+        lanes.evaluate_lanes(
+            table, *work[3:6], self.left, self.right, scaled, *work[6:9], count, value
+        )
+        return count
+
+    def roots(self, below: int, number: int, width: float) -> Roots:
+        """Bracket and certify eigenvalues below + 1 ... below + number.
+
+        Parameters
+        ----------
+        width : float
+            Relative width of the brackets in omega^2.
+        """
+        work, ends = self._work(number), np.array([self.left, self.right])
+        values, counts = np.zeros((6, number)), np.zeros((number, 2), np.int64)
+        root, slope, low, high, rounding, error = values
+        segments = self.own.shape[1]
+        columns = segments + 8
+        while True:
+            reason, total = lanes.find_roots(
+                *(*self.own, ends, below, False, root, slope, width, low, high, counts, rounding),
+                *(_scratch.table(columns), work, 0.0),
+            )
+            if reason != TABLE_TOO_SMALL:
+                break
+            columns = total
+        values *= self.unit
+        return Roots(reason, root, low, high, counts, rounding, total, error, segments)
+
+
+class _Scratch(threading.local):
+    """Arrays that root searches of one thread write into, kept from one to the next."""
+
+    def __init__(self) -> None:
+        self.kept: dict[tuple[int, int], tuple[Any, ...]] = {}
+        self.columns = np.empty((lanes.ROWS, 0))
+        self.intervals: tuple[Any, ...] = _intervals(0)
+        self.chain: tuple[Any, ...] = _chain(0)
+
+    def work(self, n: int, roots: int) -> tuple[Any, ...]:
+        """Return what `lanes.find_roots` writes into."""
+        if (n, roots) not in self.kept:
+            if len(self.kept) == _KEPT:
+                self.kept.clear()
+            self.kept[n, roots] = _workspace(n, roots)
+        return self.kept[n, roots]
+
+    def table(self, columns: int) -> Array:
+        """Return a table of pieces with at least so many columns."""
+        if self.columns.shape[1] < columns:
+            self.columns = np.empty((lanes.ROWS, columns + columns // 2))
+        return self.columns
+
+    def levels(self, intervals: int, segments: int, roots: int) -> tuple[Any, ...]:
+        """Return what `lanes.solve_levels` writes into, but for the table and the last."""
+        if len(self.intervals[0]) < intervals:
+            self.intervals = _intervals(intervals)
+        if self.chain[0].shape[1] < segments:
+            self.chain = _chain(2 * segments)
+        return (*self.intervals, *self.chain, np.empty((lanes.MOST_LEVELS + 1, roots)),
+                np.zeros(roots))  # fmt: skip
+
+
+def _intervals(n: int) -> tuple[Array | Integers, ...]:
+    """Return which intervals vary, their first segments, and the interval and place of steps."""
+    most = _MOST_STEPS + n
+    integers = np.empty(n, np.int64), np.empty(n + 1, np.int64), np.empty(most, np.int64)
+    return *integers, np.empty((4, most))
+
+
+def _chain(n: int) -> tuple[Array | Integers, ...]:
+    """Return h, m, EI and N of segments, their first pieces and the marks of points."""
+    return np.empty((4, n)), np.empty(n + 1, np.int64), np.empty(n + 1, np.int64)
+
+
+_scratch = _Scratch()
+
+
+def find_eigenvalues(
+    chain: Chain, wanted: int, *, zeros: int = 0, width: float = 1e-10
+) -> list[Eigenvalue] | None:
+    """Return the lowest eigenvalues of a chain as `riccati.roots.find_eigenvalues` does.
+
+    None where determinants do not do: longitudinally, at springs or supports of the ends, and
+    for modes that nearly coincide; the frames do there.
+    """
+    n = len(chain.length)
+    if chain.family != "bending" or any(p.holds and p.node in (0, n) for p in chain.points):
+        return None
+    ready = SingleChain(chain)
+    floor = _floor(ready, omega2_scale(chain), zeros)
+    if floor is None:
+        return None
+    distance, negative = floor
+    found: list[Eigenvalue] = []
+    parts = [(0, negative), (negative + zeros, max(wanted - negative - zeros, 0))]
+    for below, number in parts:
+        if below and zeros:
+            counts = (negative, below)
+            found += [Eigenvalue(k + 1, 0.0, (-distance, distance), counts) for k in range(*counts)]
+        if number:
+            roots = ready.roots(below, number, width)
+            near = np.diff(roots.omega2) <= lanes.PARTED * np.abs(roots.omega2[1:])
+            if roots.reason != CERTIFIED or np.any(near):
+                return None
+            found += _listed(roots, below)
+    return found
+
+
+def _floor(ready: SingleChain, scale: float, zeros: int) -> tuple[float, int] | None:
+    """Return the least distance from zero at which the counts make sense, and the lower count."""
+    floors = scale * 10.0 ** np.arange(-16, -12)
+    count = ready.count(np.concatenate([-floors, floors]))
+    if not zeros:
+        return (0.0, int(count[4])) if count[0] == count[4] else None
+    for floor, low, high in zip(floors, count[:4], count[4:], strict=True):
+        if high - low >= zeros:
+            return (float(floor), int(low)) if high - low == zeros else None
+    return None
+
+
+def _listed(roots: Roots, below: int) -> list[Eigenvalue]:
+    columns = (values.tolist() for values in roots[1:5])
+    return [
+        Eigenvalue(below + k + 1, omega2, (low, high), (counts[0], counts[1]))
+        for k, (omega2, low, high, counts) in enumerate(zip(*columns, strict=True))
+    ]
+
+
+def compiled_here() -> bool:
+    """Tell whether this process had to compile the kernel: it was not in numba's cache."""
+    return bool(lanes.solve_rows.stats.cache_misses or lanes.find_roots.stats.cache_misses)
