@@ -133,6 +133,45 @@ class Tables(NamedTuple):
     elsewhere: dict[str, Path]
 
 
+def read_overridden(path: Path, assignments: Iterable[str]) -> tuple[dict[str, Any], str]:
+    """Read a TOML file and apply overrides; return its tables, and its name for messages.
+
+    Raises
+    ------
+    InputError
+        If the file or an override cannot be read.
+    """
+    tables, assignments = read_toml(path), tuple(assignments)
+    override(tables, assignments)
+    return tables, f"{path} (with --set)" if assignments else str(path)
+
+
+def read_beside_case(
+    path: Path, assignments: Iterable[str], what: str
+) -> tuple[dict[str, Any], str]:
+    """Read a TOML file that names a case, as `read_overridden` does.
+
+    Parameters
+    ----------
+    path : Path
+    assignments : iterable of str
+        Overrides.
+    what : str
+        What the file is, for messages: "a study file".
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or is a case itself.
+    """
+    tables, where = read_overridden(path, assignments)
+    if "vehicle" in tables:
+        raise InputError(
+            f"{path}: this is a case file; name it in {what} with case = '{path.name}'"
+        )
+    return tables, where
+
+
 def read_tables(
     path: Path, assignments: Iterable[str], name: str, columns: Sequence[str]
 ) -> Tables:
@@ -143,9 +182,7 @@ def read_tables(
     InputError
         If anything in it cannot be read.
     """
-    tables, assignments = read_toml(path), tuple(assignments)
-    override(tables, assignments)
-    where = f"{path} (with --set)" if assignments else str(path)
+    tables, where = read_overridden(path, assignments)
     table = tables.get(name)
     if not isinstance(table, dict) or "stations" not in table:
         return Tables(tables, where, {})

@@ -19,8 +19,7 @@ from antinode.case import Case, load_case
 from antinode.condition import OperatingCondition
 from antinode.errors import InputError
 from antinode.explain import validate
-from antinode.files import read_toml
-from antinode.override import override
+from antinode.files import read_beside_case
 from antinode.units import Frozen, Number, Unit
 
 from .observation_table import read_observations
@@ -275,14 +274,8 @@ def load_identification(path: str | Path, assignments: Iterable[str] = ()) -> Id
     InputError
         If anything in it is wrong.
     """
-    path, assignments = Path(path), tuple(assignments)
-    tables = read_toml(path)
-    override(tables, assignments)
-    where = f"{path} (with --set)" if assignments else str(path)
-    if "vehicle" in tables:
-        raise InputError(
-            f"{path}: this is a case file; name it in a file with case = '{path.name}'"
-        )
+    path = Path(path)
+    tables, where = read_beside_case(path, assignments, "a file")
     elsewhere = {}
     if isinstance(source := tables.get("observations"), str):
         elsewhere["observations"] = path.parent / source
@@ -291,8 +284,7 @@ def load_identification(path: str | Path, assignments: Iterable[str] = ()) -> Id
         raise InputError(f"{where}: observations is empty; give one row at the least")
     file = validate(IdentificationFile, tables, where, elsewhere)
     return IdentificationProblem(
-        case=load_case(path.parent / file.case), **{k: getattr(file, k) for k in _KEPT}
+        case=load_case(path.parent / file.case),
+        observations=file.observations,
+        **{k: getattr(file, k) for k in _Choices.model_fields},
     )
-
-
-_KEPT = ("observations", "parameters", "distributions", "fit")

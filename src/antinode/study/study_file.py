@@ -16,8 +16,7 @@ from pydantic import Field, model_validator
 from antinode.case import Case, load_case
 from antinode.errors import InputError
 from antinode.explain import validate
-from antinode.files import read_cells, read_toml
-from antinode.override import override
+from antinode.files import read_beside_case, read_cells
 from antinode.text import short
 from antinode.units import Frozen, Length, Number, Unit
 
@@ -246,14 +245,8 @@ def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
     InputError
         If anything in it is wrong.
     """
-    path, assignments = Path(path), tuple(assignments)
-    tables = read_toml(path)
-    override(tables, assignments)
-    where = f"{path} (with --set)" if assignments else str(path)
-    if "vehicle" in tables:
-        raise InputError(
-            f"{path}: this is a case file; name it in a study file with case = '{path.name}'"
-        )
+    path = Path(path)
+    tables, where = read_beside_case(path, assignments, "a study file")
     file = validate(StudyFile, tables, where)
     kept: dict[str, Any] = {k: getattr(file, k) for k in _Choices.model_fields}
     if file.design.table is not None:
