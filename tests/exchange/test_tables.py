@@ -10,9 +10,11 @@ import pytest
 from antinode import InputError, load_beam
 from antinode.beam import Beam, Ends
 from antinode.exchange.beam_toml import beam_file_text
+from antinode.exchange.convert import Request, convert
 from antinode.exchange.inputs import Choices, read_beam
 from antinode.exchange.outputs import write_beam
-from antinode.exchange.tabulated import tabulate
+from antinode.exchange.tabulated import Stations, tabulate
+from antinode.files import read_csv
 from exchange.conversions import EXAMPLES, difference, everything, example, solved
 
 NAMES = (*EXAMPLES, "everything")
@@ -99,3 +101,25 @@ def test_everything_is_in_the_workbook(tmp_path):
     book = openpyxl.load_workbook(tmp_path / "b.xlsx")
     assert book.sheetnames == ["stations", "beam", "point_masses", "springs", "joints"]
     assert book["springs"]["B3"].value == "inf"
+
+
+def test_a_hull_goes_from_table_to_table(tmp_path):
+    given = tmp_path / "hull.csv"
+    given.write_text(
+        "x [m], mass_per_length, bending_stiffness [kN m^2], radius [mm], wall [mm]\n"
+        "0, 5, 4, 40, 2\n1, 6, 5, 80, 3\n2, 6, 5, 80, 3\n"
+    )
+    book, table = tmp_path / "hull.xlsx", tmp_path / "again.csv"
+    assert convert(Request(given, book)) == convert(Request(book, table)) == ()
+    columns = read_csv(table, ("x", "mass_per_length", "bending_stiffness", "radius", "wall"))
+    assert columns["radius"] == [0.04, 0.08, 0.08]
+    assert columns["wall"] == [0.002, 0.003, 0.003]
+    (note,) = convert(Request(table, tmp_path / "beam.toml"))
+    assert "a beam has none: radius, wall" in note
+
+
+def test_a_hull_stands_at_the_rows_of_the_beam():
+    hull = {"x": np.array([0.0, 2, 4]), "radius": np.array([1.0, 2, 3])}
+    for interpolation, radius in (("step", [1, 1, 2, 3]), ("linear", [1, 1.5, 2, 3])):
+        stations = Stations(interpolation, {"x": np.array([0.0, 1, 2, 4])}).with_hull(hull)
+        assert stations.columns["radius"].tolist() == radius

@@ -20,7 +20,7 @@ from antinode.beam_file import BeamFile
 from antinode.errors import InputError
 from antinode.explain import validate
 
-from .tabulated import Stations, tabulate
+from .tabulated import Hull, Stations, tabulate
 
 _SAME = 1e-7  # of the largest N: what a file may differ from its beam
 KINDS: dict[type[Attachment], str] = {
@@ -50,27 +50,33 @@ def beam_file_text(beam: Beam) -> tuple[str, tuple[str, ...]]:
     return toml_text({"beam": tables}), notes
 
 
-def beam_tables(beam: Beam) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Return the table `[beam]` of a beam file, and notes on what it does not hold exactly."""
+def beam_tables(beam: Beam, hull: Hull | None = None) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """Return the table `[beam]` of a beam file, and notes on what it does not hold exactly.
+
+    With `hull` its stations have columns that a beam file does not know.
+    """
     plain, loads = _split(beam)
     stations = tabulate(plain)
     tables = head_tables(beam, stations) | attachment_tables(beam)
     if loads:
         tables["loads"] = loads
         _check_force(beam, tables)
-    return tables, stations.notes
+    return tables | {"stations": _columns(stations.with_hull(hull or {}))}, stations.notes
 
 
 def head_tables(beam: Beam, stations: Stations) -> dict[str, Any]:
     """Return name, interpolation, stations and ends."""
     ends = {key: value for key, value in vars(beam.ends).items() if value is not None}
-    columns = {name: column.tolist() for name, column in stations.columns.items()}
     return {
         "name": beam.name,
         "interpolation": stations.interpolation,
-        "stations": columns,
+        "stations": _columns(stations),
         "ends": ends,
     }
+
+
+def _columns(stations: Stations) -> dict[str, list[float]]:
+    return {name: column.tolist() for name, column in stations.columns.items()}
 
 
 def attachment_tables(beam: Beam) -> dict[str, list[dict[str, float]]]:

@@ -15,6 +15,7 @@ from .inputs import Choices, Found, read_beam
 from .outputs import Modes, check_libraries, write_beam, write_modes
 
 _BEAMS = ("toml", "csv", "xlsx")
+_TABLES = ("csv", "xlsx")
 _ROWS = ("toml", "csv", "json")
 
 
@@ -59,11 +60,20 @@ def convert(request: Request) -> tuple[str, ...]:
     if how_in == "uff":
         return _convert_measurements(request, how_out)
     found = read_beam(request.source, how_in, request.choices)
+    notes = (*found.notes, *_left_out(found, how_out))
     if how_out in _BEAMS:
-        return (*found.notes, *write_beam(request.target, found.beam, how_out))
+        return (*notes, *write_beam(request.target, found.beam, how_out, found.hull))
     modes = _solved(found, request.modes)
     system = request.choices.system
-    return (*found.notes, *write_modes(request.target, modes, how_out, system))
+    return (*notes, *write_modes(request.target, modes, how_out, system))
+
+
+def _left_out(found: Found, how_out: Format) -> tuple[str, ...]:
+    """Say which columns of a hull the output cannot hold."""
+    names = [name for name in found.hull if name != "x"]
+    if not names or how_out in _TABLES:
+        return ()
+    return (f"left out, since a beam has none: {', '.join(names)}",)
 
 
 def _named(name: str, option: str) -> Format | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,8 @@ from antinode.limits import check_limits
 from antinode.override import override
 
 from .formats import Format
+from .station_csv import read_station_csv, without_hull
+from .tabulated import Hull
 from .units import SI, System
 
 Notes = tuple[str, ...]
@@ -45,11 +47,15 @@ class Choices:
 
 @dataclass(frozen=True)
 class Found:
-    """A beam from a file, with what to solve for, and what was left out of it."""
+    """A beam from a file, with what to solve for, and what was left out of it.
+
+    Columns of a hull stand beside it: a table of stations may have them, a beam has none.
+    """
 
     beam: Beam
     solve: Solve
     notes: Notes
+    hull: Hull = field(default_factory=dict)
 
 
 def read_beam(path: Path, how: Format, choices: Choices) -> Found:
@@ -79,7 +85,9 @@ def read_beam(path: Path, how: Format, choices: Choices) -> Found:
     if how not in readers:
         raise InputError(f"{path}: a beam cannot be read from the format {how}; give another file")
     table, notes = readers[how](path, choices)
-    return _from_tables({"beam": table}, str(path), choices.assignments, notes)
+    table, hull = without_hull(table)
+    found = _from_tables({"beam": table}, str(path), choices.assignments, notes)
+    return replace(found, hull=hull)
 
 
 def _from_tables(
@@ -122,15 +130,13 @@ def _from_nastran(path: Path, choices: Choices) -> Found:
 
 
 def _csv(path: Path, _: Choices) -> tuple[dict[str, Any], Notes]:
-    from .station_csv import read_station_csv
-
-    return read_station_csv(path)
+    return read_station_csv(path), ()
 
 
 def _xlsx(path: Path, _: Choices) -> tuple[dict[str, Any], Notes]:
     from .workbook import read_workbook
 
-    return read_workbook(path)
+    return read_workbook(path), ()
 
 
 def _sections(path: Path, choices: Choices) -> tuple[dict[str, Any], Notes]:

@@ -12,6 +12,7 @@ from antinode.dataset import check_output, modal_table, write_result, write_whol
 from antinode.result import ModalResult
 
 from .formats import MODAL_ENDINGS, MODAL_FORMATS, Format, format_of
+from .tabulated import Hull
 from .units import SI, System
 
 Notes = tuple[str, ...]
@@ -55,7 +56,7 @@ def write_modes(path: Path, modes: Modes, how: Format | None = None, system: Sys
         write_result(path, modes.data, table, result.to_dataset, _KINDS[how])
         return ()
     writers: dict[str, Callable[[Path], Notes]] = {
-        "xlsx": lambda p: _xlsx(p, result.beam, result),
+        "xlsx": lambda p: _xlsx(p, result.beam, result, {}),
         "mat": lambda p: _mat(p, result),
         "vtk": lambda p: _vtk(p, result),
         "uff": lambda p: _uff(p, result),
@@ -67,12 +68,16 @@ def write_modes(path: Path, modes: Modes, how: Format | None = None, system: Sys
 _KINDS = {"csv": ".csv", "json": ".json", "netcdf": ".nc"}
 
 
-def write_beam(path: Path, beam: Beam, how: Format) -> Notes:
-    """Write a beam alone: as a beam file, a table of stations or a workbook."""
+def write_beam(path: Path, beam: Beam, how: Format, hull: Hull | None = None) -> Notes:
+    """Write a beam alone: as a beam file, a table of stations or a workbook.
+
+    The last two also hold the columns of a hull.
+    """
+    columns = hull or {}
     writers: dict[str, Callable[[Path], Notes]] = {
         "toml": lambda p: _toml(p, beam),
-        "csv": lambda p: _csv(p, beam),
-        "xlsx": lambda p: _xlsx(p, beam, None),
+        "csv": lambda p: _csv(p, beam, columns),
+        "xlsx": lambda p: _xlsx(p, beam, None, columns),
     }
     return _whole(path, writers[how])
 
@@ -99,18 +104,18 @@ def _toml(path: Path, beam: Beam) -> Notes:
     return notes
 
 
-def _csv(path: Path, beam: Beam) -> Notes:
+def _csv(path: Path, beam: Beam, hull: Hull) -> Notes:
     from .station_csv import station_csv
 
-    text, notes = station_csv(beam)
+    text, notes = station_csv(beam, hull)
     path.write_text(text, encoding="utf-8")
     return notes
 
 
-def _xlsx(path: Path, beam: Beam, result: ModalResult | None) -> Notes:
+def _xlsx(path: Path, beam: Beam, result: ModalResult | None, hull: Hull) -> Notes:
     from .workbook import write_workbook
 
-    return write_workbook(path, beam, result)
+    return write_workbook(path, beam, result, hull)
 
 
 def _mat(path: Path, result: ModalResult) -> Notes:

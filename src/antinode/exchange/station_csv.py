@@ -7,28 +7,32 @@ not mind it.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from antinode.beam import Array, Beam
-from antinode.files import read_csv
+from antinode.beam_file import COLUMNS
+from antinode.files import COLUMN_UNITS, read_csv
 
-from .tabulated import UNITS, Stations, tabulate
+from .tabulated import HULL, Hull, Stations, tabulate
 
-VEHICLE_COLUMNS = ("radius", "wall")
-"""Columns that a vehicle's stations have besides; a beam has no use for them."""
+KNOWN = (*COLUMNS, *HULL)
+"""Columns that a table of stations may have."""
 _INTERPOLATION = re.compile(r'^#\s*interpolation\s*=\s*"?(step|linear|log)"?\s*$', re.MULTILINE)
 
 
-def station_csv(beam: Beam) -> tuple[str, tuple[str, ...]]:
+def station_csv(beam: Beam, hull: Hull) -> tuple[str, tuple[str, ...]]:
     """Return the stations of a beam as CSV, and notes on what it leaves out."""
-    stations = tabulate(beam)
+    stations = tabulate(beam).with_hull(hull)
     return csv_text(stations), (*stations.notes, *left_out(beam))
 
 
 def csv_text(stations: Stations) -> str:
     """Return stations as the text of a CSV file; all digits are kept."""
-    header = ",".join(f"{name} [{UNITS[name]}]" for name in stations.columns)
+    header = ",".join(f"{name} [{COLUMN_UNITS[name]}]" for name in stations.columns)
     columns: list[Array] = list(stations.columns.values())
     rows = [",".join(repr(float(c[k])) for c in columns) for k in range(len(columns[0]))]
     return "\n".join([f'# interpolation = "{stations.interpolation}"', header, *rows]) + "\n"
@@ -47,33 +51,30 @@ def left_out(beam: Beam) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def read_station_csv(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Read stations from CSV.
-
-    Returns
-    -------
-    dict
-        The table `[beam]`.
-    tuple of str
-        What was left out.
+def read_station_csv(path: Path) -> dict[str, Any]:
+    """Return the table `[beam]` of stations in CSV, columns of a hull among them.
 
     Raises
     ------
     InputError
         If it cannot be read.
     """
-    columns: dict[str, Any] = dict(read_csv(path, [*UNITS, *VEHICLE_COLUMNS]))
-    return beam_table(path, columns, path.read_text(encoding="utf-8-sig")[:2000])
-
-
-def beam_table(
-    path: Path, columns: dict[str, Any], comments: str = ""
-) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Return the table `[beam]` of stations, without what a beam has no use for, and notes."""
-    extra = [name for name in columns if name not in UNITS]
-    kept = {name: column for name, column in columns.items() if name in UNITS}
-    table = {"name": path.stem[:200] or "beam", "stations": kept}
-    if found := _INTERPOLATION.search(comments):
+    table = beam_table(path, read_csv(path, KNOWN))
+    if found := _INTERPOLATION.search(path.read_text(encoding="utf-8-sig")[:2000]):
         table["interpolation"] = found[1]
-    notes = (f"left out, since a beam has none: {', '.join(extra)}",) if extra else ()
-    return table, notes
+    return table
+
+
+def beam_table(path: Path, columns: Mapping[str, list[float]]) -> dict[str, Any]:
+    """Return the table `[beam]` of columns of stations; its name is the file's."""
+    return {"name": path.stem[:200] or "beam", "stations": dict(columns)}
+
+
+def without_hull(table: dict[str, Any]) -> tuple[dict[str, Any], Hull]:
+    """Return a table `[beam]` with what a beam has a use for, and the columns of a hull."""
+    stations = table["stations"]
+    kept = {name: column for name, column in stations.items() if name not in HULL}
+    if len(kept) == len(stations) or "x" not in stations:
+        return {**table, "stations": kept}, {}
+    names = [name for name in stations if name == "x" or name in HULL]
+    return {**table, "stations": kept}, {name: np.array(stations[name]) for name in names}

@@ -8,27 +8,26 @@ further rows are put in.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from antinode.beam import Array, Beam, Interpolation
+from antinode.beam_file import COLUMNS
 from antinode.text import counted
 
 JUMP = 1e-9
 """Distance of the two rows of a jump, in lengths of the beam."""
 PIECES = 16
 """Into which an interval is divided where N is a curve."""
-UNITS = {
-    "x": "m",
-    "mass_per_length": "kg/m",
-    "bending_stiffness": "N m^2",
-    "axial_stiffness": "N",
-    "axial_force": "N",
-    "radius_of_gyration": "m",
-}
-"""Columns of a beam's stations with their units."""
+PROPERTIES = COLUMNS[1:]
+"""Columns of a beam's stations beside x."""
+HULL = ("radius", "wall")
+"""Columns that a vehicle's stations have besides: no beam needs them, a table keeps them."""
+Hull = Mapping[str, Array]
+"""Columns of the hull with the `x` [m] that they stand at; empty if there are none."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +38,7 @@ class Stations:
     ----------
     interpolation : {"step", "linear", "log"}
     columns : dict
-        x and the properties, SI, by the names of `UNITS`.
+        x and the properties, SI, by name.
     notes : tuple of str
         What the table does not hold exactly.
     """
@@ -47,6 +46,20 @@ class Stations:
     interpolation: Interpolation
     columns: dict[str, Array]
     notes: tuple[str, ...] = ()
+
+    def with_hull(self, hull: Hull) -> Stations:
+        """Return the table with the columns of a hull."""
+        if not hull:
+            return self
+        x = self.columns["x"]
+        row = np.clip(np.searchsorted(hull["x"], x, side="right") - 1, 0, len(hull["x"]) - 1)
+        step = self.interpolation == "step"
+        more = {
+            name: column[row] if step else np.interp(x, hull["x"], column)
+            for name, column in hull.items()
+            if name != "x"
+        }
+        return replace(self, columns=self.columns | more)
 
 
 def tabulate(beam: Beam) -> Stations:
@@ -91,7 +104,7 @@ def _is_stepped(beam: Beam) -> bool:
 
 def _properties(beam: Beam) -> dict[str, Array]:
     """Return the tables of a beam that say something, by name."""
-    tables = {name: getattr(beam, name) for name in UNITS if name != "x"}
+    tables = {name: getattr(beam, name) for name in PROPERTIES}
     if beam.is_unloaded:
         del tables["axial_force"]
     return {name: table for name, table in tables.items() if table is not None}

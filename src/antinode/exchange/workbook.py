@@ -18,15 +18,15 @@ import numpy as np
 from antinode.beam import Beam
 from antinode.dataset import modal_table
 from antinode.errors import InputError
-from antinode.files import MOST_ROWS, Row, read_bytes, station_columns
+from antinode.files import COLUMN_UNITS, MOST_ROWS, Row, read_bytes, station_columns
 from antinode.result import COMPONENTS, ModalResult
 from antinode.text import nearest, short
 from antinode.units import unit_factor
 
 from .beam_toml import attachment_tables, beam_tables, head_tables
 from .extras import need
-from .station_csv import VEHICLE_COLUMNS, beam_table
-from .tabulated import UNITS, tabulate
+from .station_csv import KNOWN, beam_table
+from .tabulated import Hull, tabulate
 
 MOST_BYTES = 20_000_000
 _MOST_COLUMNS = 100
@@ -44,14 +44,18 @@ ATTACHED = {
 """Sheets of attachments and forces: columns with their units."""
 
 
-def write_workbook(path: Path, beam: Beam, result: ModalResult | None = None) -> tuple[str, ...]:
+def write_workbook(
+    path: Path, beam: Beam, result: ModalResult | None, hull: Hull
+) -> tuple[str, ...]:
     """Write a beam, and its modes if they are given.
 
     Parameters
     ----------
     path : Path
     beam : Beam
-    result : ModalResult, optional
+    result : ModalResult or None
+    hull : dict
+        Columns of its hull, if there are any.
 
     Returns
     -------
@@ -62,7 +66,7 @@ def write_workbook(path: Path, beam: Beam, result: ModalResult | None = None) ->
     book.remove(book.active)
     if result is not None:
         _fill(book, "modes", csv.reader(io.StringIO(modal_table(result))))
-    tables, notes = _tables(beam)
+    tables, notes = _tables(beam, hull)
     _fill_beam(book, tables)
     if result is not None:
         _fill_shapes(book, result)
@@ -70,19 +74,19 @@ def write_workbook(path: Path, beam: Beam, result: ModalResult | None = None) ->
     return notes
 
 
-def _tables(beam: Beam) -> tuple[dict[str, Any], tuple[str, ...]]:
+def _tables(beam: Beam, hull: Hull) -> tuple[dict[str, Any], tuple[str, ...]]:
     """Return the tables of a beam file; N(x) is tabulated where they could not hold it."""
     try:
-        return beam_tables(beam)
+        return beam_tables(beam, hull)
     except InputError:
-        stations = tabulate(beam)
+        stations = tabulate(beam).with_hull(hull)
         return head_tables(beam, stations) | attachment_tables(beam), stations.notes
 
 
 def _fill_beam(book: Any, tables: dict[str, Any]) -> None:
     """Add the sheets that are read again."""
     columns, loads = tables["stations"], tables.get("loads", {})
-    header = [f"{name} [{UNITS[name]}]" for name in columns]
+    header = [f"{name} [{COLUMN_UNITS[name]}]" for name in columns]
     _fill(book, "stations", [header, *zip(*columns.values(), strict=True)])
     pairs = [(key, tables[key]) for key in ("name", "interpolation")]
     pairs += [*tables["ends"].items(), *((k, v) for k, v in loads.items() if k in KEYS)]
@@ -126,15 +130,8 @@ def _fill_shapes(book: Any, result: ModalResult) -> None:
                 _fill(book, symbol, [header, *table.tolist()])
 
 
-def read_workbook(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Read a beam from a workbook: its sheet `stations`, or the first one, and the others.
-
-    Returns
-    -------
-    dict
-        The table `[beam]`.
-    tuple of str
-        What was left out.
+def read_workbook(path: Path) -> dict[str, Any]:
+    """Return the table `[beam]` of the sheet `stations`, or the first one, and of the others.
 
     Raises
     ------
@@ -143,15 +140,14 @@ def read_workbook(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
     """
     sheets = _sheets(path)
     name = "stations" if "stations" in sheets else next(iter(sheets), "")
-    columns = station_columns(sheets.get(name, []), [*UNITS, *VEHICLE_COLUMNS], path)
-    table, notes = beam_table(path, dict(columns))
+    table = beam_table(path, station_columns(sheets.get(name, []), KNOWN, path))
     head = _head(sheets.get("beam", []), path)
     for sheet in ATTACHED:
         if sheet in sheets:
             head[sheet] = _attached(sheets[sheet], sheet, path)
     if "point_forces" in head:
         head.setdefault("loads", {})["point_forces"] = head.pop("point_forces")
-    return {**table, **head}, notes
+    return {**table, **head}
 
 
 def _sheets(path: Path) -> dict[str, list[Row]]:
