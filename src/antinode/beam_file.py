@@ -41,6 +41,17 @@ class Solve(Frozen):
         1e-6, description="largest relative error of a frequency by what varies inside segments"
     )
 
+    def overridden(self, **given: float | None) -> Solve:
+        """Return the settings with those of the command line that are given.
+
+        Raises
+        ------
+        InputError
+            If one of them is out of range.
+        """
+        told = {key: value for key, value in given.items() if value is not None}
+        return validate(Solve, self.model_dump() | told, "command line")
+
 
 class BeamEnds(Frozen):
     """How the ends are held."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -26,12 +24,11 @@ from .options import (
     Solver,
     ToFormat,
 )
-from .study_options import Folder, IdentifySet, Overwrite, Sensitivity, StudySet, Sweep
-from .text import one_line, short
+from .outcome import check_plot, draw, print_json, say_notes, say_written
+from .study_commands import identify, sensitivity, sweep
+from .text import short
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from .beam_file import BeamFile
     from .case import Case
     from .result import ModalResult
@@ -51,7 +48,6 @@ Input files are TOML. Numbers are SI, angles in radians; a text carries its own 
 """,
 )
 _SOLVER, _OUTPUT, _EXCHANGE = Solver(), Output(), Exchange()
-_SWEEP, _SENSITIVITY = Sweep(), Sensitivity()
 
 
 @app.command(sort_key=2)
@@ -85,7 +81,7 @@ def modes(
     if output.plot:
         from .figures import plot_case
 
-        _draw(plot_case(problem, result), output.plot)
+        draw(plot_case(problem, result), output.plot)
     _write_modes(output, data, result)
     if not output.json:
         from .printing import console, show_condition, show_modes
@@ -132,7 +128,7 @@ def beam(
     if output.plot:
         from .figures import plot_modes
 
-        _draw(plot_modes(result), output.plot)
+        draw(plot_modes(result), output.plot)
     _write_modes(output, data, result)
     if not output.json:
         from .printing import console, show_beam, show_buckling, show_modes
@@ -168,14 +164,14 @@ def loads(case: Path, /, *, set_: Set = (), output: Output = _OUTPUT) -> None:
     if output.plot:
         from .figures import plot_loads
 
-        _draw(plot_loads(problem), output.plot)
+        draw(plot_loads(problem), output.plot)
     if output.file:
         from .dataset import write_result
 
         write_result(output.file, data, lambda: loads_csv(problem), lambda: loads_dataset(problem))
-        _say_written(output.file)
+        say_written(output.file)
     if output.json:
-        _print_json(data)
+        print_json(data)
     else:
         from .printing import console, show_loads
 
@@ -212,106 +208,9 @@ def init(
     print(f"next: {command}")
 
 
-@app.command(sort_key=8)
-def sweep(
-    study: Path,
-    /,
-    *,
-    set_: StudySet = (),
-    options: Sweep = _SWEEP,
-) -> None:
-    """Compute the frequencies of many cases: grids, tables, time histories, samples.
-
-    The study file names a case, the inputs of it that vary, and how. With a store, **-o
-    sweep.zarr**, an interrupted sweep goes on where it was, whatever ended it: run the same command
-    again. Cases that fail are NaN with a reason. Exit code 1 if all cases fail.
-
-    - Example: **antinode sweep study.toml --plot sweep.png**
-    - Example: **antinode sweep study.toml -o sweep.zarr --workers 2**
-    - Example: **antinode sweep study.toml -o sweep.zarr --scheduler tcp://cluster:8786**
-
-    Parameters
-    ----------
-    study
-        A study file in TOML. 'antinode init --example sweep' writes one with its case.
-    """
-    from .study.sweep_command import run_sweep
-
-    run_sweep(
-        study,
-        options.assignments(set_),
-        options.output,
-        workers=options.workers,
-        scheduler=options.scheduler,
-        plot=options.plot,
-        overwrite=options.overwrite,
-        json=options.json,
-    )
-
-
-@app.command(sort_key=8)
-def sensitivity(
-    file: Path,
-    /,
-    *,
-    set_: StudySet = (),
-    options: Sensitivity = _SENSITIVITY,
-) -> None:
-    """Compute which inputs the frequencies depend on, and how uncertain they make them.
-
-    For every mode: mean, deviation and 95 % band over the distributions of the inputs, Sobol
-    indices (first order and total, with 95 % intervals), and the derivative at the case in % per %.
-
-    - Example: **antinode sensitivity case.toml --uncertain speed=2% --uncertain thrust=5%**
-    - Example: **antinode sensitivity samples.toml --samples 2048 --plot tornado.png**
-
-    Parameters
-    ----------
-    file
-        A study file whose inputs have distributions; or a case file, with --uncertain.
-    """
-    from .study.sensitivity_command import run_sensitivity
-
-    run_sensitivity(
-        file,
-        set_,
-        options.uncertain,
-        samples=options.samples,
-        workers=options.workers,
-        store=options.store,
-        plot=options.plot,
-        json=options.json,
-    )
-
-
-@app.command(sort_key=8)
-def identify(
-    file: Path,
-    /,
-    *,
-    set_: IdentifySet = (),
-    folder: Folder = None,
-    overwrite: Overwrite = False,
-    json: Json = False,
-) -> None:
-    """Find the parameters of a vehicle that explain observed frequencies.
-
-    The file names a case, observations of it, and what of it may change: numbers, numbers of every
-    row, and distributions along the body. Printed are observed against fitted frequencies, values
-    with standard deviations, and what the data leave open. Ctrl-C ends it with the best values so
-    far (exit code 130).
-
-    - Example: **antinode identify identify.toml -o fitted**
-    - Example: **antinode identify identify.toml --set fit.starts=8 --json**
-
-    Parameters
-    ----------
-    file
-        An identification file in TOML. 'antinode schema identify' lists its keys.
-    """
-    from .study.identification_command import run_identification
-
-    run_identification(file, set_, folder, overwrite=overwrite, json=json)
+app.command(sweep, sort_key=8)
+app.command(sensitivity, sort_key=8)
+app.command(identify, sort_key=8)
 
 
 @app.command(sort_key=9)
@@ -346,8 +245,8 @@ def convert(
     from .exchange.convert import Request
     from .exchange.convert import convert as run
 
-    _say_notes(run(Request(source, target, from_, to, exchange.choices(set_), exchange.modes)))
-    _say_written(target)
+    say_notes(run(Request(source, target, from_, to, exchange.choices(set_), exchange.modes)))
+    say_written(target)
 
 
 @app.command(name="app", sort_key=10)
@@ -431,13 +330,13 @@ def schema(of: str = "case", /) -> None:
     if of == "study":
         from .study.sweep_schema import study_schema
 
-        _print_json(study_schema())
+        print_json(study_schema())
     elif of == "identify":
         from .study.identification_schema import identification_schema
 
-        _print_json(identification_schema())
+        print_json(identification_schema())
     else:
-        _print_json(input_schema(of))
+        print_json(input_schema(of))
 
 
 @app.command(sort_key=6)
@@ -452,7 +351,7 @@ def verify(*, json: Json = False) -> None:
     failed = sum(not check.passed for check in checks)
     if json:
         rows = [check.to_dict() for check in checks]
-        _print_json({"schema_version": 1, "allowed": ALLOWED, "checks": rows})
+        print_json({"schema_version": 1, "allowed": ALLOWED, "checks": rows})
     else:
         from .printing import show_checks
 
@@ -485,7 +384,7 @@ def reproduce(
         check_folder(out)
     comparison = compare()
     if json:
-        _print_json(comparison.to_dict())
+        print_json(comparison.to_dict())
     else:
         from .paper.terminal import show_comparison
         from .printing import console
@@ -494,19 +393,15 @@ def reproduce(
     if out:
         from .paper.writing import write_all
 
-        _say_written(write_all(comparison, out))
+        say_written(write_all(comparison, out))
     check_bounds(comparison)
 
 
 def _solve(problem: Case | BeamFile, solver: Solver) -> ModalResult:
     """Solve a problem, by the settings of its file but for those given on the command line."""
-    from .beam_file import Solve
-    from .explain import validate
     from .modes import solve_modes
 
-    given = {"modes": solver.modes, "tolerance": solver.tolerance}
-    chosen = problem.solve.model_dump() | {k: v for k, v in given.items() if v is not None}
-    settings = validate(Solve, chosen, "command line")
+    settings = problem.solve.overridden(modes=solver.modes, tolerance=solver.tolerance)
     return solve_modes(
         problem,
         settings.modes,
@@ -527,17 +422,7 @@ def _check_output(output: Output, *, modal: bool = False) -> None:
         from .dataset import ENDINGS, check_output
 
         check_output(output.file, ENDINGS)
-    if output.plot:
-        from .figures import check_plot
-
-        check_plot(output.plot)
-
-
-def _draw(figure: Figure, path: Path) -> None:
-    from .figures import save
-
-    save(figure, path)
-    _say_written(path)
+    check_plot(output.plot)
 
 
 def _write_modes(output: Output, data: dict[str, Any], result: ModalResult) -> None:
@@ -545,23 +430,7 @@ def _write_modes(output: Output, data: dict[str, Any], result: ModalResult) -> N
     if output.file:
         from .exchange.outputs import Modes, write_modes
 
-        _say_notes(write_modes(output.file, Modes(result, data)))
-        _say_written(output.file)
+        say_notes(write_modes(output.file, Modes(result, data)))
+        say_written(output.file)
     if output.json:
-        _print_json(data)
-
-
-def _print_json(data: dict[str, Any]) -> None:
-    from .dataset import to_json
-
-    print(to_json(data))
-
-
-def _say_notes(notes: Iterable[str]) -> None:
-    """Say what a file leaves out."""
-    for note in notes:
-        print(f"note: {one_line(note, 300)}", file=sys.stderr)
-
-
-def _say_written(path: Path) -> None:
-    print(f"wrote {path}", file=sys.stderr)
+        print_json(data)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -45,12 +45,15 @@ def console() -> Console:
     return Console(width=max(width, 20), color_system=None)
 
 
-def _table(*headings: str, left: Sequence[str] = ()) -> Table:
-    """Return an empty table; columns hold numbers, to the right, but for those in `left`."""
+def new_table(*headings: str, left: Collection[int] = (0,)) -> Table:
+    """Return an empty table; columns hold numbers, to the right, but for those in `left`.
+
+    The first column may wrap if it is one of these.
+    """
     table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for heading in headings:
-        side: JustifyMethod = "left" if heading in left else "right"
-        table.add_column(Text(heading), justify=side, no_wrap=heading not in left[:1])
+    for k, heading in enumerate(headings):
+        side: JustifyMethod = "left" if k in left else "right"
+        table.add_column(Text(heading), justify=side, no_wrap=k > 0 or k not in left)
     return table
 
 
@@ -102,7 +105,7 @@ def _fitting(tables: Iterable[Table], out: Console) -> Table:
 
 
 def _modes_table(result: ModalResult, headings: Sequence[str], brief: bool) -> Table:
-    table = _table(*headings, left=headings[:2])
+    table = new_table(*headings, left=(0, 1))
     family = ""
     for mode in result.modes:
         if family and mode.family != family:
@@ -208,7 +211,7 @@ def show_loads(out: Console, case: Case) -> None:
 
 def _forces_table(case: Case) -> Table:
     loads = case.loads
-    table = _table("force", "x [m]", "drag, aft [N]", "lift, up [N]", left=("force",))
+    table = new_table("force", "x [m]", "drag, aft [N]", "lift, up [N]")
     for force in loads.forces:
         _row(table, force.name, f"{force.x:.4g}", f"{force.F_X:.6g}", f"{force.F_Y:.6g}")
     _row(table, "thrust", f"{case.vehicle.length:.4g}", f"{-loads.thrust:.6g}", "")
@@ -220,12 +223,15 @@ def _forces_table(case: Case) -> Table:
     return table
 
 
+_INTERNAL = ("x [m]", "N [kN]", "Q [kN]", "M [kN m]", "deflection [mm]", "axial [mm]")
+
+
 def _internal_table(case: Case) -> Table:
     from .statics import static_shape
 
     loads, x = case.loads, np.linspace(0, case.vehicle.length, 9)
     shape = static_shape(case)
-    table = _table("x [m]", "N [kN]", "Q [kN]", "M [kN m]", "deflection [mm]", "axial [mm]")
+    table = new_table(*_INTERNAL, left=())
     rows = zip(
         x,
         loads.axial_force(x) / 1e3,
@@ -242,7 +248,7 @@ def _internal_table(case: Case) -> Table:
 
 def _validity_table(case: Case, columns: int) -> Table:
     words = ("correlation", "quantity", "value", "valid range", "")[:columns]
-    table = _table(*words, left=words)
+    table = new_table(*words, left=range(len(words)))
     for row in case.loads.validity:
         high = "" if math.isinf(row.high) else f" ... {row.high:g}"
         low = f"from {row.low:g}" if math.isinf(row.high) else f"{row.low:g}"
@@ -301,8 +307,8 @@ def show_checks(checks: Sequence[Check]) -> None:
 
 def checks_table(checks: Iterable[Check]) -> Table:
     """Return the table of built-in checks."""
-    left = ("check", "closed form", "worst relative error", "")
-    table = _table("check", "closed form", "modes", "worst relative error", "", left=left)
+    headings = ("check", "closed form", "modes", "worst relative error", "")
+    table = new_table(*headings, left=(0, 1, 3, 4))
     for check in checks:
         mark = "passed" if check.passed else "FAILED"
         _row(table, check.name, check.formula, str(check.modes), f"{check.worst:.1e}", mark)

@@ -56,10 +56,6 @@ class Sweep:
     overwrite: Annotated[bool, flag(OUTPUT, "Replace a store of another study.")] = False
     json: Json = False
 
-    def assignments(self, given: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the overrides of the study file, the number of modes among them."""
-        return given if self.modes is None else (*given, f"solve.modes={self.modes}")
-
 
 @Parameter(name="*")
 @dataclass(frozen=True)

@@ -56,6 +56,7 @@ OUTPUTS = (
     "verify",
     "printing",
     "schema",
+    "outcome",
 )
 PAPER = (
     "paper",
@@ -73,6 +74,7 @@ PAPER = (
 )
 STUDY = (
     "study",
+    "study.progress",
     "study.paths",
     "study.observation_table",
     "study.identification_file",
@@ -182,7 +184,7 @@ APP = (
     "app.guard",
     "app.server",
 )
-COMMANDS = ("options", "study_options", "commands", "cli", "__main__")
+COMMANDS = ("options", "study_options", "study_commands", "commands", "cli", "__main__")
 
 MAY_IMPORT = {
     WORDS: (),

@@ -116,12 +116,9 @@ def _check(request: Request, how_in: Format, how_out: Format) -> None:
 
 
 def _solved(found: Found, number: int | None) -> Modes:
-    from antinode.beam_file import Solve
-    from antinode.explain import validate
     from antinode.modes import solve_modes
 
-    given = {} if number is None else {"modes": number}
-    solve = validate(Solve, found.solve.model_dump() | given, "command line")
+    solve = found.solve.overridden(modes=number)
     result = solve_modes(found.beam, solve.modes, tolerance=solve.tolerance, unloaded=True)
     return Modes(result, result.to_dict())
 

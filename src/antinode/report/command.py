@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import json as jsonlib
 import shlex
-import sys
 import time
 from pathlib import Path
-from typing import Any
 
-from antinode.beam_file import BeamFile, Solve, load_beam
+from antinode.beam_file import BeamFile, load_beam
 from antinode.case import Case, load_case
 from antinode.dataset import check_output
 from antinode.errors import InputError
-from antinode.explain import validate
 from antinode.files import read_toml
 from antinode.modes import solve_modes
+from antinode.outcome import print_json, say_written
 from antinode.result import ModalResult
 
 from .beam_report import beam_report
@@ -43,11 +40,17 @@ def run_report(
     document, told = make_report(file, assignments, modes, tolerance)
     write_report(document, output)
     if json:
-        facts = {"hash": dict(document.facts)["Inputs, SHA-256"], "title": document.title}
-        seconds = round(time.monotonic() - started, 3)
-        _print({"report": str(output), **facts, "seconds": seconds, "warnings": told})
+        data = {
+            "schema_version": 1,
+            "report": str(output),
+            "hash": dict(document.facts)["Inputs, SHA-256"],
+            "title": document.title,
+            "seconds": round(time.monotonic() - started, 3),
+            "warnings": told,
+        }
+        print_json(data)
     else:
-        sys.stderr.write(f"wrote {output}\n")
+        say_written(output)
 
 
 def make_report(
@@ -100,9 +103,7 @@ def _of_study(
 
 
 def _solved(problem: Case | BeamFile, modes: int | None, tolerance: float | None) -> ModalResult:
-    given = {"modes": modes, "tolerance": tolerance}
-    chosen = problem.solve.model_dump() | {k: v for k, v in given.items() if v is not None}
-    settings = validate(Solve, chosen, "command line")
+    settings = problem.solve.overridden(modes=modes, tolerance=tolerance)
     return solve_modes(problem, settings.modes, tolerance=settings.tolerance, unloaded=True)
 
 
@@ -116,7 +117,3 @@ def write_report(document: Document, path: Path) -> None:
     except OSError as error:
         partial.unlink(missing_ok=True)
         raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
-
-
-def _print(data: dict[str, Any]) -> None:
-    sys.stdout.write(jsonlib.dumps({"schema_version": 1, **data}, indent=2) + "\n")

@@ -6,10 +6,13 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
+from antinode.outcome import print_json, say_written
+
 from .identification import identify
 from .identification_file import load_identification
-from .identification_report import end_progress, show_identification, stderr_progress
+from .identification_report import show_identification
 from .identified_case import check_folder, write_identification
+from .progress import end_progress, text_progress
 
 
 def run_identification(
@@ -26,16 +29,13 @@ def run_identification(
         check_folder(folder, overwrite=overwrite)
     problem = load_identification(file, assignments)
     try:
-        result = identify(problem, progress=stderr_progress())
+        result = identify(problem, progress=text_progress())
     finally:
         end_progress()
     if folder:
-        written = write_identification(result, folder, overwrite=overwrite)
-        sys.stderr.write("wrote " + ", ".join(map(str, written)) + "\n")
+        say_written(*write_identification(result, folder, overwrite=overwrite))
     if json:
-        from antinode.dataset import to_json
-
-        sys.stdout.write(to_json(result.to_dict()) + "\n")
+        print_json(result.to_dict())
     else:
         from antinode.printing import console
 

@@ -1,49 +1,20 @@
-"""An identification on the terminal: tables, words, and progress while it runs (rich)."""
+"""An identification on the terminal: tables and words (rich)."""
 
 from __future__ import annotations
 
 import math
-import sys
-import time
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from itertools import groupby
 
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
-from antinode.printing import show_warnings
+from antinode.printing import new_table, show_warnings
 
 from .identification import Estimate, Identification
 from .identification_words import brief, correlations_text, directions_text
-
-_EVERY = 1.0  # second between lines of progress where there is no terminal
-
-
-def stderr_progress() -> Callable[[str], None]:
-    """Return what shows progress on stderr: one changing line, or plain lines a second apart."""
-    terminal = sys.stderr.isatty()
-    last = [-math.inf]
-
-    def show(text: str) -> None:
-        final = text.startswith("interrupted")
-        if terminal and not final:
-            sys.stderr.write(f"\r\x1b[K{text}")
-        elif final or time.monotonic() - last[0] >= _EVERY:
-            sys.stderr.write(f"{text}\n")
-            last[0] = time.monotonic()
-        sys.stderr.flush()
-
-    return show
-
-
-def end_progress() -> None:
-    """Clear the changing line."""
-    if sys.stderr.isatty():
-        sys.stderr.write("\r\x1b[K")
-        sys.stderr.flush()
 
 
 def show_identification(out: Console, result: Identification) -> None:
@@ -73,20 +44,11 @@ def _summary(result: Identification) -> str:
     )
 
 
-def _new_table(*headings: str, left: int = 1) -> Table:
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for k, heading in enumerate(headings):
-        table.add_column(Text(heading), justify="left" if k < left else "right", no_wrap=k > 0)
-    return table
-
-
 def _rows_table(result: Identification) -> Table:
     """Return a table with a line for every row and family: relative differences by mode."""
     most = max(c.number for c in result.comparisons)
     shown = min(most, 8)
-    table = _new_table(
-        "row", "observed [Hz]", *(f"{k}" for k in range(1, shown + 1)), "worst", left=1
-    )
+    table = new_table("row", "observed [Hz]", *(f"{k}" for k in range(1, shown + 1)), "worst")
     for (_, family), group in groupby(result.comparisons, key=lambda c: (c.row, c.family)):
         entries = list(group)
         label = entries[0].label + ("" if family == "bending" else f" ({family})")
@@ -102,7 +64,7 @@ def _rows_table(result: Identification) -> Table:
 
 
 def _parameter_table(parameters: Iterable[Estimate]) -> Table:
-    table = _new_table("parameter", "unit", "value", "+-", "95 % from", "to", "by data", left=2)
+    table = new_table("parameter", "unit", "value", "+-", "95 % from", "to", "by data", left=(0, 1))
     for p in parameters:
         low, high = p.interval
         sd = "at bound" if p.at_bound else "open" if math.isinf(p.sd) else brief(p.sd)

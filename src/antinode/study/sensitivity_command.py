@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
 from antinode.case import load_case
 from antinode.errors import InputError
 from antinode.files import read_toml
+from antinode.outcome import check_plot, draw, print_json
+from antinode.printing import new_table
 from antinode.text import counted, short
 
+from .progress import cases_progress, end_progress
 from .sensitivity import SensitivityResult, sensitivity
 from .study_file import Study, StudyInput, load_study
-from .sweep_report import end_progress, stderr_progress
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -40,26 +39,18 @@ def run_sensitivity(
     json: bool,
 ) -> None:
     """Compute sensitivities, and give the result out."""
-    if plot:
-        from antinode.figures import check_plot
-
-        check_plot(plot)
+    check_plot(plot)
     study = read_uncertain(file, assignments, uncertain)
     try:
         result = sensitivity(
-            study, samples, workers=workers or 1, store=store, progress=stderr_progress()
+            study, samples, workers=workers or 1, store=store, progress=cases_progress()
         )
     finally:
         end_progress()
     if plot:
-        from antinode.figures import save
-
-        save(tornado(result), plot)
-        sys.stderr.write(f"wrote {plot}\n")
+        draw(tornado(result), plot)
     if json:
-        from antinode.dataset import to_json
-
-        sys.stdout.write(to_json(result.to_dict()) + "\n")
+        print_json(result.to_dict())
     else:
         from antinode.printing import console
 
@@ -104,12 +95,14 @@ def show_sensitivity(out: Console, result: SensitivityResult) -> None:
         f"{counted(result.cases, 'case')}, {result.failed} failed",
         highlight=False,
     )
-    bands = _new_table("mode", "nominal [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to")
+    bands = new_table("mode", "nominal [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to")
     for m in result.modes:
         cells = (m.nominal, m.mean, m.sd, *m.band)
         bands.add_row(m.name, *(f"{v:.5g}" for v in cells))
     out.print(bands)
-    table = _new_table("mode", "input", "total index", "+-", "first index", "+-", "% per %", left=2)
+    table = new_table(
+        "mode", "input", "total index", "+-", "first index", "+-", "% per %", left=(0, 1)
+    )
     for m in result.modes:
         order = np.argsort(-np.nan_to_num(m.indices.total))[:_SHOWN]
         for number, k in enumerate(order.tolist()):
@@ -124,13 +117,6 @@ def show_sensitivity(out: Console, result: SensitivityResult) -> None:
                 f"{m.elasticity[k]:+.4f}" if np.isfinite(m.elasticity[k]) else "",
             )
     out.print(table)
-
-
-def _new_table(*headings: str, left: int = 1) -> Table:
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for k, heading in enumerate(headings):
-        table.add_column(Text(heading), justify="left" if k < left else "right", no_wrap=k > 0)
-    return table
 
 
 def tornado(result: SensitivityResult) -> Figure:

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from antinode.errors import ComputationError, InputError
+from antinode.outcome import check_plot, draw, print_json, say_written
 
 from .design import Points, points_of
+from .progress import cases_progress, end_progress
 from .study_file import Study, load_study
 from .sweep import sweep
-from .sweep_report import end_progress, show_sweep, stderr_progress, summary
+from .sweep_report import show_sweep, summary
 
 if TYPE_CHECKING:
     import xarray
@@ -25,8 +26,9 @@ _SMALL = 20_000  # cases that one process solves before others have started
 def run_sweep(
     file: Path,
     assignments: Iterable[str],
-    output: Path | None,
     *,
+    output: Path | None,
+    modes: int | None,
     workers: int | None,
     scheduler: str | None,
     plot: Path | None,
@@ -41,23 +43,23 @@ def run_sweep(
         If no case could be solved.
     """
     to_file = output is not None and output.suffix.lower() in _FILES
-    if plot:
-        from antinode.figures import check_plot
-
-        check_plot(plot)
+    check_plot(plot)
     if to_file and output:
         from antinode.dataset import check_output
 
         check_output(output, _FILES)
-    study = load_study(file, assignments)
+    more = () if modes is None else (f"solve.modes={modes}",)
+    study = load_study(file, (*assignments, *more))
     points = points_of(study)
     dataset = _swept(study, points, None if to_file else output, workers, scheduler, overwrite)
     data = summary(points, dataset)
     if plot:
-        _draw(study, dataset, plot)
+        from .sweep_figures import plot_sweep
+
+        draw(plot_sweep(study, dataset), plot)
     if to_file and output:
         _export(dataset, output, data)
-        sys.stderr.write(f"wrote {output}\n")
+        say_written(output)
     _print(data, f", in {output}" if output and not to_file else "", json=json)
     if data["failed"] == data["cases"]:
         worst = max(data["failures"], key=lambda f: f["cases"])
@@ -86,33 +88,22 @@ def _swept(
             workers=chosen,
             scheduler=scheduler,
             overwrite=overwrite,
-            progress=stderr_progress(),
+            progress=cases_progress(),
         )
     finally:
         end_progress()
 
 
-def _print(data: dict[str, object], stored: str, *, json: bool) -> None:
+def _print(data: dict[str, Any], stored: str, *, json: bool) -> None:
     if json:
-        from antinode.dataset import to_json
-
-        sys.stdout.write(to_json(data) + "\n")
+        print_json(data)
         return
     from antinode.printing import console
 
     show_sweep(console(), data, stored)
 
 
-def _draw(study: Study, dataset: xarray.Dataset, path: Path) -> None:
-    from antinode.figures import save
-
-    from .sweep_figures import plot_sweep
-
-    save(plot_sweep(study, dataset), path)
-    sys.stderr.write(f"wrote {path}\n")
-
-
-def _export(dataset: xarray.Dataset, path: Path, data: dict[str, object]) -> None:
+def _export(dataset: xarray.Dataset, path: Path, data: dict[str, Any]) -> None:
     """Write a Dataset to a file: .nc with everything, .csv with one row a case."""
     from antinode.dataset import write_result
 

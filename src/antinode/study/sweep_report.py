@@ -1,22 +1,18 @@
-"""A sweep on the terminal: progress with rate and time left, ranges of frequencies, failures."""
+"""A sweep on the terminal: ranges of frequencies, failures."""
 
 from __future__ import annotations
 
-import math
-import sys
-import time
 from collections import Counter
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
 from antinode.errors import AntinodeError
+from antinode.printing import new_table
 from antinode.text import counted
 
 from .chunks import PAST_BUCKLING, WHY, Work, case_of, failed
@@ -25,55 +21,7 @@ from .design import Points
 if TYPE_CHECKING:
     import xarray
 
-_EVERY = 2.0  # seconds between lines where there is no terminal
 _BLOCK = 100_000
-
-
-def stderr_progress() -> Callable[[int, int], None]:
-    """Return what shows progress on stderr: one changing line, or plain lines now and then."""
-    terminal, start, first = sys.stderr.isatty(), time.monotonic(), [-1]
-    last = [-math.inf]
-
-    def show(done: int, cases: int) -> None:
-        now = time.monotonic()
-        if first[0] < 0:
-            first[0] = done
-        ended = done == cases
-        if not ended and now - last[0] < (0.1 if terminal else _EVERY):
-            return
-        last[0] = now
-        text = _progress(done, cases, done - first[0], now - start)
-        sys.stderr.write(f"\r\x1b[K{text}" if terminal else f"{text}\n")
-        sys.stderr.flush()
-
-    return show
-
-
-def _progress(done: int, cases: int, here: int, seconds: float) -> str:
-    text = f"{done} of {cases} cases ({done / cases:.0%})"
-    if here <= 0 or seconds <= 0:
-        return text
-    rate = here / seconds
-    return f"{text}, {rate:.3g} a second, {_duration((cases - done) / rate)} left"
-
-
-def _duration(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return (
-        f"{hours} h {minutes} min"
-        if hours
-        else f"{minutes} min {rest} s"
-        if minutes
-        else f"{rest} s"
-    )
-
-
-def end_progress() -> None:
-    """Clear the changing line."""
-    if sys.stderr.isatty():
-        sys.stderr.write("\r\x1b[K")
-        sys.stderr.flush()
 
 
 def summary(points: Points, dataset: xarray.Dataset) -> dict[str, Any]:
@@ -178,7 +126,7 @@ def show_sweep(out: Console, data: dict[str, Any], stored: str) -> None:
 
 
 def _inputs_table(data: dict[str, Any]) -> Table:
-    table = _new_table("input", "unit", "from", "to", left=2)
+    table = new_table("input", "unit", "from", "to", left=(0, 1))
     for v in data["inputs"]:
         unit = "" if v["unit"] == "1" else v["unit"]
         table.add_row(Text(v["name"]), unit, f"{v['least']:.6g}", f"{v['largest']:.6g}")
@@ -186,15 +134,8 @@ def _inputs_table(data: dict[str, Any]) -> Table:
 
 
 def _modes_table(data: dict[str, Any]) -> Table:
-    table = _new_table("mode", "cases", "least [Hz]", "mean [Hz]", "largest [Hz]")
+    table = new_table("mode", "cases", "least [Hz]", "mean [Hz]", "largest [Hz]")
     for m in data["modes"]:
         cells = ["" if m[key] is None else f"{m[key]:.6g}" for key in _SHOWN]
         table.add_row(m["name"], str(m["cases"]), *cells)
-    return table
-
-
-def _new_table(*headings: str, left: int = 1) -> Table:
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for k, heading in enumerate(headings):
-        table.add_column(Text(heading), justify="left" if k < left else "right", no_wrap=k > 0)
     return table
