@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from antinode.plot_style import GREY, INK, zero_line
+from antinode.riccati.chain import Family
 from antinode.riccati.literal import riccati_characteristic, tmm_characteristic
 
 from .plates import BENDING, letter, sheet
@@ -148,89 +150,101 @@ def _close_up(axes: Axes, scene: Scene, number: int, mark: str) -> None:
 
 # --- figures 10 to 15 ---------------------------------------------------------------------------
 
-_Component = tuple[str, int, float, str]
-X: _Component = ("longitudinal", 0, 1e3, "X [mm]")
-Y: _Component = ("bending", 0, 1e3, "Y [mm]")
-THETA: _Component = ("bending", 1, 1e3, r"$\theta_z$ [mrad]")
-Q_X: _Component = ("longitudinal", 1, 1e-3, "$Q_x$ [kN]")
-Q_Y: _Component = ("bending", 3, 1e-3, "$Q_y$ [kN]")
-M: _Component = ("bending", 2, 1e-3, "$M_z$ [kN m]")
+
+@dataclass(frozen=True)
+class StateFigure:
+    """A figure of one component of the state of modes 1 to 6.
+
+    Attributes
+    ----------
+    family : {"bending", "longitudinal"}
+    index : int
+        Of the component.
+    factor : float
+        From SI to the units of the label.
+    label : str
+        Along the vertical axis.
+    caption : str
+        With ``{at}`` for the cavitation number and ``{largest}`` for the amplitude.
+    """
+
+    family: Family
+    index: int
+    factor: float
+    label: str
+    caption: str
+
+    def __call__(self, scene: Scene) -> Drawn:
+        """Draw it."""
+        at = f"at σ = {scene.modal.loads.sigma:g}"
+        largest = "of modes whose largest displacement is 1 mm"
+        return self._drawn(scene), self.caption.format(at=at, largest=largest)
+
+    def _drawn(self, scene: Scene) -> Figure:
+        figure, panels = sheet(3.7, 2, sharex=True)
+        modes = scene.elastic(self.family)
+        x = np.linspace(0, scene.modal.vehicle.length, 401)
+        states = scene.result.at(x, self.family)
+        columns = {m.name: k for k, m in enumerate(scene.result.family(self.family))}
+        for axes, first, mark in ((panels[0], 0, "a"), (panels[1], 3, "b")):
+            for k, dashes in zip(range(first, first + 3), ("-", "--", "-."), strict=True):
+                values = states[:, columns[modes[k].name], self.index] * _AMPLITUDE * self.factor
+                text = f"{modes[k].name}\n{modes[k].frequency_hz:.3f} Hz"
+                axes.plot(x, values, color=BENDING[k], linestyle=dashes, label=text)
+            zero_line(axes)
+            letter(axes, f"modes {first + 1} to {first + 3}", mark)
+            axes.set_ylabel(self.label)
+            axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), labelspacing=0.9)
+        panels[1].set(xlabel="x from the nose [m]", xlim=(0, scene.modal.vehicle.length))
+        drawn: Figure = figure
+        return drawn
 
 
-def _modes(scene: Scene, component: _Component) -> Figure:
-    """Draw a component of the state of modes 1 to 3 and 4 to 6, for an amplitude of 1 mm."""
-    family, index, factor, label = component
-    figure, panels = sheet(3.7, 2, sharex=True)
-    modes = scene.elastic(family)
-    x = np.linspace(0, scene.modal.vehicle.length, 401)
-    states = scene.result.at(x, family)  # type: ignore[arg-type]
-    columns = {m.name: k for k, m in enumerate(scene.result.family(family))}  # type: ignore[arg-type]
-    for axes, first, mark in ((panels[0], 0, "a"), (panels[1], 3, "b")):
-        for k, dashes in zip(range(first, first + 3), ("-", "--", "-."), strict=True):
-            values = states[:, columns[modes[k].name], index] * _AMPLITUDE * factor
-            text = f"{modes[k].name}\n{modes[k].frequency_hz:.3f} Hz"
-            axes.plot(x, values, color=BENDING[k], linestyle=dashes, label=text)
-        zero_line(axes)
-        letter(axes, f"modes {first + 1} to {first + 3}", mark)
-        axes.set_ylabel(label)
-        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), labelspacing=0.9)
-    panels[1].set(xlabel="x from the nose [m]", xlim=(0, scene.modal.vehicle.length))
-    drawn: Figure = figure
-    return drawn
-
-
-def _at(scene: Scene) -> str:
-    return f"at σ = {scene.modal.loads.sigma:g}"
-
-
-_LARGEST = "of modes whose largest displacement is 1 mm"
-
-
-def shapes_x(scene: Scene) -> Drawn:
-    """Draw X of the longitudinal modes."""
-    return _modes(scene, X), (
-        f"Longitudinal modes {_at(scene)}: axial displacement X (eq. 48 and 81), positive aft, for "
-        "a largest displacement of 1 mm. The axial force changes bending only, and EA is assumed: "
-        "these frequencies are the reconstruction's own, not the paper's."
-    )
-
-
-def shapes_y(scene: Scene) -> Drawn:
-    """Draw Y of the bending modes."""
-    return _modes(scene, Y), (
-        f"Bending modes {_at(scene)} under the axial force: lateral displacement Y (eq. 49 and "
-        "81), positive up, for a largest displacement of 1 mm."
-    )
-
-
-def shapes_theta(scene: Scene) -> Drawn:
-    """Draw theta of the bending modes."""
-    return _modes(scene, THETA), (
-        f"Rotation θ_z = dY/dx (eq. 52) {_LARGEST}, {_at(scene)}. x runs aft, so that a positive "
-        "rotation is nose-down."
-    )
-
-
-def forces_x(scene: Scene) -> Drawn:
-    """Draw Q_x of the longitudinal modes."""
-    return _modes(scene, Q_X), (
-        f"Axial force Q_x = −EA dX/dx (eq. 55), compression positive, {_LARGEST}, {_at(scene)}. It "
-        "vanishes at both free ends. EA is assumed."
-    )
-
-
-def forces_y(scene: Scene) -> Drawn:
-    """Draw Q_y of the bending modes."""
-    return _modes(scene, Q_Y), (
-        f"Lateral force Q_y = M_z' + N θ_z (eq. 54) {_LARGEST}, {_at(scene)}. It keeps the "
-        "direction across the undeformed axis, is continuous where N steps, and vanishes at both "
-        "free ends."
-    )
-
-
-def moments(scene: Scene) -> Drawn:
-    """Draw M of the bending modes."""
-    return _modes(scene, M), (
-        f"Bending moment M_z = EI d²Y/dx² (eq. 53) {_LARGEST}, {_at(scene)}. It vanishes at both "
-        "free ends."
-    )
+shapes_x = StateFigure(
+    "longitudinal",
+    0,
+    1e3,
+    "X [mm]",
+    "Longitudinal modes {at}: axial displacement X (eq. 48 and 81), positive aft, for a largest "
+    "displacement of 1 mm. The axial force changes bending only, and EA is assumed: these "
+    "frequencies are the reconstruction's own, not the paper's.",
+)
+shapes_y = StateFigure(
+    "bending",
+    0,
+    1e3,
+    "Y [mm]",
+    "Bending modes {at} under the axial force: lateral displacement Y (eq. 49 and 81), positive "
+    "up, for a largest displacement of 1 mm.",
+)
+shapes_theta = StateFigure(
+    "bending",
+    1,
+    1e3,
+    r"$\theta_z$ [mrad]",
+    "Rotation θ_z = dY/dx (eq. 52) {largest}, {at}. x runs aft, so that a positive rotation is "
+    "nose-down.",
+)
+forces_x = StateFigure(
+    "longitudinal",
+    1,
+    1e-3,
+    "$Q_x$ [kN]",
+    "Axial force Q_x = −EA dX/dx (eq. 55), compression positive, {largest}, {at}. It vanishes at "
+    "both free ends. EA is assumed.",
+)
+forces_y = StateFigure(
+    "bending",
+    3,
+    1e-3,
+    "$Q_y$ [kN]",
+    "Lateral force Q_y = M_z' + N θ_z (eq. 54) {largest}, {at}. It keeps the direction across the "
+    "undeformed axis, is continuous where N steps, and vanishes at both free ends.",
+)
+moments = StateFigure(
+    "bending",
+    2,
+    1e-3,
+    "$M_z$ [kN m]",
+    "Bending moment M_z = EI d²Y/dx² (eq. 53) {largest}, {at}. It vanishes at both free ends.",
+)
