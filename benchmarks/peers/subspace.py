@@ -1,15 +1,17 @@
 """Banded Cholesky and block subspace iteration: the fast way to a few modes with scipy.
 
-K + shift M is factorised once; each sweep solves for the block and does Rayleigh-Ritz. The vectors
-of the beam before are the start of the next one.
+K + shift M is factorised once. Every sweep solves for the block; between sweeps a Cholesky factor
+of its Gram matrix keeps the vectors apart, and Rayleigh-Ritz follows the last. The vectors of the
+beam before are the start of the next one.
 """
 
 import numpy as np
-from scipy.linalg import lapack
+from scipy.linalg import blas, lapack
+from scipy.sparse import csr_array
 
-from .hermite import bands, multiply
+from .hermite import COLUMNS, MASS_ROWS, band, sides
 
-VECTORS, SWEEPS = 14, 2
+VECTORS, SWEEPS = 13, 2
 
 
 class Subspace:
@@ -17,6 +19,7 @@ class Subspace:
 
     def __init__(self, segments, vectors=VECTORS, sweeps=SWEEPS):
         self.sweeps = sweeps
+        self.mass = _node_rows(segments)
         self.start = polynomials(segments, vectors)
         self.X = self.start
 
@@ -25,28 +28,45 @@ class Subspace:
 
     def omega2(self, h, m, EI, N, modes):
         """The lowest elastic omega^2 of a free-free beam, its two rigid modes set aside."""
-        K, M = bands(h, m, EI, N)
-        shift = 20 * N.max() / (m.mean() * (h * len(m)) ** 2)  # above the rotation's -omega^2
-        factor, failed = lapack.dpbtrf(K + shift * M, lower=1)
+        M, S = self.mass, sides(h, m, EI, N)
+        np.matmul(S[:, 4:], MASS_ROWS, out=M.data.reshape(-1, 12))
+        shift = 20 * N.max() / (m.sum() * h * len(m) * h)  # above the rotation's -omega^2
+        S[:, 4:] *= shift
+        factor, failed = lapack.dpbtrf(band(S, COLUMNS), overwrite_ab=1)
         assert not failed
-        X = self.X
-        MX = multiply(M, X)
-        for _ in range(self.sweeps):
-            solved, _ = lapack.dpbtrs(factor, MX.T, lower=1)
-            Z = solved.T
-            MZ = multiply(M, Z)
-            mass = Z @ MZ.T  # and (K + shift M) Z = M X:
-            values, Q, _ = lapack.dsygv(Z @ MX.T - shift * mass, mass)
-            X, MX = Q.T @ Z, Q.T @ MZ
-        self.X = X
-        return values[2 : 2 + modes]
+        F = M @ self.X
+        Z, MZ, mass = _sweep(factor, M, F)
+        for _ in range(self.sweeps - 1):
+            gram, _ = lapack.dpotrf(mass, lower=1)
+            F = blas.dtrsm(1.0, gram, MZ.T, lower=1, overwrite_b=1).T
+            Z, MZ, mass = _sweep(factor, M, F)
+        # (K + shift M) Z = F
+        values, Q, failed = lapack.dsygv(Z.T @ F, mass, overwrite_a=1, overwrite_b=1)
+        assert not failed
+        self.X = Z @ Q
+        return values[2 : 2 + modes] - shift
+
+
+def _sweep(factor, M, F):
+    Z, _ = lapack.dpbtrs(factor, F)
+    MZ = M @ Z
+    return Z, MZ, Z.T @ MZ
+
+
+def _node_rows(segments):
+    """Sparse matrix with six places in every row: two unknowns of a node and its neighbours."""
+    size = 2 * segments + 2
+    first = np.repeat(np.arange(-2, size - 2, 2), 2)
+    columns = np.clip(first[:, None] + np.arange(6), 0, size - 1).ravel()
+    starts = np.arange(0, 6 * size + 1, 6)
+    return csr_array((np.zeros(6 * size), columns, starts), shape=(size, size))
 
 
 def polynomials(segments, vectors):
-    """Legendre polynomials and their slopes at the nodes, shape (vectors, 2 segments + 2)."""
+    """Legendre polynomials and their slopes at the nodes, shape (2 segments + 2, vectors)."""
     x = np.linspace(-1, 1, segments + 1)
-    X = np.empty((vectors, 2 * len(x)))
+    X = np.empty((2 * len(x), vectors))
     for k in range(vectors):
         p = np.polynomial.legendre.Legendre.basis(k)
-        X[k, 0::2], X[k, 1::2] = p(x), p.deriv()(x) * 2 / segments
+        X[0::2, k], X[1::2, k] = p(x), p.deriv()(x) * 2 / segments
     return X
