@@ -1,7 +1,8 @@
-"""All benchmarks in one run: python -m benchmarks, some minutes; writes benchmarks/results.json.
+"""All benchmarks in one run: python -m benchmarks; writes results.json and README.md's table.
 
 One process, one thread. Answers are compared before anything is timed; times are medians of many
-calls, antinode's and the peer's in turn.
+calls, antinode's and the peer's in turn. The machine is calibrated before and after every part, and
+every peer held against its figure, so scaled (peers/figures.py).
 """
 
 import os
@@ -22,20 +23,22 @@ from scipy.linalg import eigh  # noqa: E402
 import antinode as an  # noqa: E402
 from antinode.riccati import lanes  # noqa: E402
 
-from . import c  # noqa: E402
-from .beams import MODES, SEGMENTS, medians, smooth_case, steep_stations, stepped_beam  # noqa: E402
+from . import c, table  # noqa: E402
+from .beams import LENGTH, MODES, SEGMENTS, medians, smooth_case, steep_stations, stepped_beam  # noqa: E402
 from .cold_start import starts  # noqa: E402
-from .peers import dense, hp  # noqa: E402
+from .peers import dense, figures, hp, packages  # noqa: E402
 from .peers.reduced_basis import ReducedBasis  # noqa: E402
 from .peers.subspace import Subspace  # noqa: E402
 
-HERE = Path(__file__).resolve().parent
 CASES = 300
 TOLERANCE = 1e-6  # asked for; the true error is checked to be below 1e-7
 
 
 def row(work, against, target, antinode_s, peer_s, *, most=False, **more):
-    """One row: the ratio is that of times, or of throughput where a target is a least one."""
+    """One row: the ratio is that of times, or of throughput where a target is a least one.
+
+    `figure` names what the peer should take (peers/figures.py).
+    """
     ratio = antinode_s / peer_s if most else peer_s / antinode_s
     met = ratio <= target if most else ratio >= target
     return {
@@ -116,8 +119,8 @@ def batch():
     evaluations = float(np.mean(ours.evaluations))
     return [
         row(work, "scipy banded subspace iteration, warm-started", 10, mine / CASES,
-            other / CASES, evaluations=evaluations),
-        row(work, "scipy dense eigh", 10, mine / CASES, full / 20),
+            other / CASES, evaluations=evaluations, figure="subspace"),
+        row(work, "scipy dense eigh", 10, mine / CASES, full / 20, figure="dense"),
     ]  # fmt: skip
 
 
@@ -130,46 +133,67 @@ def loads():
     ours = an.solve_many(beams)
 
     def reduced():
-        return np.array([basis.omega2(factor, MODES) for factor in factors])
+        return basis.omega2(factors, MODES)
 
     error = check("reduced basis", reduced(), ours.omega2, 2e-8)
     mine, other = (t / len(factors) for t in medians(15, lambda: an.solve_many(beams), reduced))
     work = "the same, only loads vary, true error <= 1e-8"
     against = "reduced basis, 8 modes at 3 conditions"
-    return [row(work, against, 1, mine, other, peer_error=float(f"{error:.2g}"))]
+    more = {"peer_error": float(f"{error:.2g}"), "figure": "reduced basis"}
+    return [row(work, against, 1, mine, other, **more)]
 
 
 def single():
     """One solve in a running process."""
     h, m, EI, N = smooth_case(_rng(), 40)
-    solver, turn = Subspace(SEGMENTS), iter(range(10**9))
+    beam, solver = stepped_beam(SEGMENTS), Subspace(SEGMENTS)
+    one = _in_turn(lambda k: an.solve_many(an.BeamBatch(h, m[k], EI[k], N[k])))
+    exact = np.array([one().omega2[0] for _ in range(40)])
 
-    def batch_of_one():
-        k = next(turn) % 40
-        return an.solve_many(an.BeamBatch(h, m[k], EI[k], N[k]))
+    def checked(name, solve):
+        found = np.array([solve(m[k], EI[k], N[k], MODES) for k in range(40)])
+        check(name, found, exact, 1e-5)
+        return _in_turn(lambda k: solve(m[k], EI[k], N[k], MODES))
 
-    def subspace():
-        k = next(turn) % 40
-        return solver.omega2(h[0], m[k], EI[k], N[k], MODES)
+    alone, ready, shapes, other = medians(
+        201,
+        one,
+        lambda: an.natural_frequencies(beam, MODES),
+        lambda: an.solve_modes(beam, MODES, families=("bending",)),
+        checked("subspace", lambda *case: solver.omega2(h[0], *case)),
+    )
+    rows = [
+        _single_row("frequencies (a batch of one)", alone, "subspace", other),
+        _single_row("frequencies (natural_frequencies of a Beam)", ready, "subspace", other),
+        _single_row("with shapes (solve_modes)", shapes, "subspace", other),
+    ]
+    for name, solve in _packages().items():
+        times = medians(51, one, checked(name, solve))
+        rows.append(_single_row("frequencies (a batch of one)", times[0], name, times[1]))
+    return rows
 
-    beam = stepped_beam(SEGMENTS)
 
-    def full():
-        return an.solve_modes(beam, MODES, families=("bending",))
+def _packages():
+    found, missing = packages.installed(LENGTH, SEGMENTS)
+    for name, why in missing.items():
+        print(f"no row for {name}: {why}")
+    return found
 
-    def frequencies():
-        return an.natural_frequencies(beam, MODES)
 
-    one, ready, other, with_shapes = medians(201, batch_of_one, frequencies, subspace, full)
-    against = "scipy banded subspace iteration, warm-started"
-    return [
-        row("one solve, 100 segments, frequencies (a batch of one)", against, 0.5, one, other,
-            most=True),
-        row("one solve, 100 segments, frequencies (natural_frequencies of a Beam)", against, 0.5,
-            ready, other, most=True),
-        row("one solve, 100 segments, with shapes (solve_modes)", against, 0.5, with_shapes,
-            other, most=True),
-    ]  # fmt: skip
+def _in_turn(solve, cases=40):
+    """Call for every case in turn."""
+    turn = iter(range(10**9))
+    return lambda: solve(next(turn) % cases)
+
+
+def _single_row(what, antinode_s, peer, peer_s):
+    names = {
+        "subspace": "scipy banded subspace iteration, warm-started",
+        "scikit-fem": "scikit-fem, Hermite elements, shift-inverted eigsh",
+        "OpenSeesPy": "OpenSeesPy, elasticBeamColumn with P-Delta",
+    }
+    work = f"one solve, 100 segments, {what}"
+    return row(work, names[peer], 0.5, antinode_s, peer_s, most=True, figure=peer)
 
 
 def smooth():
@@ -186,8 +210,8 @@ def smooth():
         return hp.omega2(*tables[next(turn) % 20], MODES)
 
     worst = [0.0, 0.0]
-    for number, table in enumerate(tables):
-        x, m, EI, N = table
+    for number, stations in enumerate(tables):
+        x, m, EI, N = stations
         beam = an.Beam.from_stations(x, m, EI, None, N, interpolation="log")
         exact = an.natural_frequencies(beam, MODES, tolerance=1e-9).omega2
         turn = iter([number, number])
@@ -198,9 +222,9 @@ def smooth():
     turn = iter(range(10**9))
     mine, other = medians(201, ours, theirs)
     against = "9 aligned hp-elements of order 7, dense eigh, mesh built each time"
-    errors = {"error": float(f"{worst[0]:.2g}"), "peer_error": float(f"{worst[1]:.2g}")}
+    more = {"error": float(f"{worst[0]:.2g}"), "peer_error": float(f"{worst[1]:.2g}")}
     work = "one solve of a smooth steep beam to 1e-7 true error"
-    return [row(work, against, 0.5, mine, other, most=True, **errors)]
+    return [row(work, against, 0.5, mine, other, most=True, figure="hp", **more)]
 
 
 def long_chain():
@@ -231,22 +255,24 @@ def cold_start():
 def calibration():
     """How fast the machine is, in two fixed jobs [s]."""
     A = np.random.default_rng(0).standard_normal((200, 200))
+    libraries = list(c.libraries().values())
     calls = [lambda: eigh(A + A.T, check_finite=False)]
-    calls += [lambda library=library: c.calibrate(library) for library in c.libraries().values()][
-        :1
-    ]
-    names = ("dense eigh, 200 x 200", "C loop, 2,000,000 turns")
-    return {n: float(f"{t:.3g}") for n, t in zip(names, medians(15, *calls), strict=False)}
+    calls += [lambda: c.calibrate(libraries[0])] if libraries else []
+    taken = medians(15, *calls)
+    return {n: float(f"{t:.3g}") for n, t in zip(figures.REFERENCE, taken, strict=False)}
 
 
 def machine():
+    now = calibration()
+    own = {name: version(name) for name in ("antinode", "numpy", "scipy", "numba")}
     return {
         "date": f"{datetime.datetime.now(datetime.UTC):%Y-%m-%d}",
         "processor": _processor(),
         "cpu_count": os.cpu_count(),
         "python": platform.python_version(),
-        "versions": {name: version(name) for name in ("antinode", "numpy", "scipy", "numba")},
-        "calibration_s": calibration(),
+        "versions": {**own, **packages.versions()},
+        "calibration_s": now,
+        "scale": float(f"{figures.scale(now):.3g}"),
     }
 
 
@@ -260,14 +286,25 @@ def _processor():
 
 def main():
     where, rows = machine(), []
+    before = where["calibration_s"]
     for part in (step, batch, loads, single, smooth, long_chain, cold_start):
-        found = part()
-        rows += found
+        found, after = part(), calibration()
         for one in found:
-            print(f"{one['ratio']:8.3g}  ({one['target']})  {one['work']} / {one['against']}")
+            rows.append(figures.judge(one, before, after))
+            print(_line(one))
+        before = after
     for one in rows:
         one["machine"] = where
-    (HERE / "results.json").write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
+    table.RESULTS.write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
+    table.write(rows)
+
+
+def _line(one):
+    found = f"{one['ratio']:8.3g}  ({one['target']})  {one['work']} / {one['against']}"
+    if "peer_within" in one:
+        taken, limit = table.duration(one["peer_s"]), table.duration(one["peer_scaled_limit_s"])
+        found += f"; peer {taken}, {'within' if one['peer_within'] else 'ABOVE'} {limit}"
+    return found
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import ctypes
 import shutil
 import subprocess
 import tempfile
+from functools import cache
 from pathlib import Path
 
 FLAGS = ["-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math", "-shared", "-fPIC"]
@@ -11,6 +12,7 @@ WIDTHS = ("256", "512")  # of vectors; the faster one counts
 _DOUBLES = ctypes.POINTER(ctypes.c_double)
 
 
+@cache
 def libraries():
     """Compiled libraries by width of vector; none without a compiler."""
     compiler = shutil.which("gcc") or shutil.which("cc")
