@@ -338,12 +338,15 @@ class Beam:
         -------
         Chain
         """
+        varies = self.varies(family)
+        if not varies.any():
+            return self._uniform_chain(family)
         cell, start, size = _coarsest_steps(self, family)
-        times = np.where(self.varies(family)[cell], refinement, 1)
+        times = np.where(varies[cell], refinement, 1)
         which, number = _copies(times)
         interval, size = cell[which], (size / times)[which]
         start = start[which] + number * size
-        halves = np.where(self.varies(family)[interval], 2, 1)
+        halves = np.where(varies[interval], 2, 1)
         step, second = _copies(halves)
         nearer = np.where(second == 1, _FAR, _NEAR)  # weight of the first Gauss point
 
@@ -364,6 +367,14 @@ class Beam:
             right=right,
             family=family,
         )
+
+    def _uniform_chain(self, family: Family) -> Chain:
+        """Return one segment for every interval: nothing varies in any."""
+        stiffness = self.bending_stiffness if family == "bending" else _given(self.axial_stiffness)
+        left, right, points = self.points(family)
+        tables = (self.mass_per_length, stiffness, self.axial_force)
+        m, EI, N = (np.ascontiguousarray(table[:, 0]) for table in tables)
+        return Chain(np.diff(self.x), m, EI, N, left, right, family, points)
 
     def points(
         self, family: Family, first: Integers | None = None
@@ -392,6 +403,15 @@ class Beam:
         array, shape (freedoms, 2)
             Rows [a, b] of motions ``a + b (x - x[0])``; longitudinally only [1, 0] can occur.
         """
+        if family not in self._known_freedoms:
+            self._known_freedoms[family] = self._find_freedoms(family)
+        return self._known_freedoms[family]
+
+    @cached_property
+    def _known_freedoms(self) -> dict[Family, Array]:
+        return {}
+
+    def _find_freedoms(self, family: Family) -> Array:
         rows = [np.zeros(2)]
         left, right, points = self.points(family)
         held = [(0.0, _HOLDS[left]), (self.length, _HOLDS[right])]

@@ -16,6 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from .riccati import shapes
+
 _LARGE = 100_000  # segments times modes from which loading takes less time than numpy
 _ready: list[ModuleType] = []
 _loading = threading.Lock()
@@ -34,6 +36,11 @@ def kernel_if_worthwhile(segments: int, modes: int) -> ModuleType | None:
     if _ready or segments * modes >= _LARGE:
         return kernel()
     return None
+
+
+def shapes_for(segments: int, modes: int) -> ModuleType:
+    """Return what has `mode_states` and `mode_energies`: compiled if worthwhile, or in numpy."""
+    return kernel_if_worthwhile(segments, modes) or shapes
 
 
 def _prepare() -> ModuleType:
@@ -62,8 +69,11 @@ def _try(compiled: Any) -> None:
     compiled.solve_chains(*(one, one, one, one, ends, 2, 1e-10, (*out[:3], counts, out[3])))
     structure = tuple(one[0] for _ in range(3))
     compiled.certify_guesses(structure, one, ends, 2, 1e-10, one, (*out[:3], counts, out[3]))
-    chain = compiled.Chain(*(np.ones(1) for _ in range(4)))
+    chain = compiled.Chain(np.full(8, 0.125), *(np.ones(8) for _ in range(3)))
     compiled.find_eigenvalues(chain, 3, zeros=2)
+    omega2 = np.array([500.0])
+    states = compiled.mode_states(chain, omega2, np.ones(1, np.int64))
+    compiled.mode_energies(chain, states, omega2)
     tables = np.arange(2.0), *(np.ones((1, 2)) for _ in range(3))
     limits = 4.0, 1.0, 1
     beam = compiled.Tables(*tables, 0.0, np.zeros(0), False, limits, "free", "free", ())

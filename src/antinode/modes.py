@@ -18,13 +18,13 @@ import numpy.typing as npt
 
 from .beam import Beam
 from .errors import ComputationError, InputError
-from .kernel import kernel_if_worthwhile
+from .kernel import kernel_if_worthwhile, shapes_for
 from .limits import out_of_range_is_an_error
 from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .riccati.chain import Chain, Family, omega2_scale
 from .riccati.literal import find_eigenvalues_tmm
 from .riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
-from .riccati.shapes import Energies, mode_energies, mode_states, propagate
+from .riccati.shapes import Energies, propagate
 
 Array = npt.NDArray[np.float64]
 FAMILIES: tuple[Family, ...] = ("bending", "longitudinal")
@@ -298,14 +298,14 @@ def _by_tmm(
 def _output_grid(beam: Beam, modes: int) -> Array:
     """Return breakpoints and points between, dense enough for smooth shapes [m]."""
     spacing = beam.length / max(200, 20 * (modes + 2))
-    pieces = np.ceil(np.diff(beam.x) / spacing).astype(int)
-    parts: list[Array] = [
-        np.linspace(a, b, n, endpoint=False)
-        for a, b, n in zip(beam.x[:-1], beam.x[1:], pieces, strict=True)
-    ]
+    h = np.diff(beam.x)
+    pieces = np.ceil(h / spacing).astype(int)
+    k = np.repeat(np.arange(len(pieces)), pieces)
+    number = np.arange(len(k)) - (np.cumsum(pieces) - pieces)[k]
+    points = beam.x[k] + number * (h / pieces)[k]
     inner = [item.x for item in beam.attachments if beam.x[0] < item.x < beam.x[-1]]
     doubled = sorted({int(np.argmin(np.abs(beam.x - x))) for x in inner})
-    return np.sort(np.concatenate([*parts, beam.x[-1:], beam.x[doubled]]))
+    return np.sort(np.concatenate([points, beam.x[-1:], beam.x[doubled]]))
 
 
 def _modes_of(
@@ -322,7 +322,7 @@ def _modes_of(
     chain = solved.chain.cut_at(np.unique(grid - grid[0]))
     omega2 = np.array([solved.eigenvalues[k].omega2 for k in keep])
     states = _shapes(beam, chain, solved.eigenvalues, keep, names)
-    energies = mode_energies(chain, states, omega2)
+    energies = shapes_for(len(chain.length), len(keep)).mode_energies(chain, states, omega2)
     scale = _normalising_factors(states, energies.mass, normalisation)
     states = states * scale[:, None]
     at_grid = _on_grid(chain, states, omega2, grid - grid[0])
@@ -373,7 +373,8 @@ def _shapes(
                 for c in free
             ]
         )
-        states[:, free] = mode_states(chain, omega2, clusters)
+        solver = shapes_for(len(chain.length), len(free))
+        states[:, free] = solver.mode_states(chain, omega2, clusters)
     return states
 
 
@@ -414,18 +415,19 @@ def _on_grid(chain: Chain, states: Array, omega2: Array, grid: Array) -> Array:
 def _normalising_factors(states: Array, mass: Array, normalisation: Normalisation) -> Array:
     """Return the factor for each mode: size as asked, first extremum from the nose positive."""
     displacement = states[..., 0]
-    sign = np.array([_first_extremum_sign(column) for column in displacement.T])
     largest = np.max(np.abs(displacement), axis=0)
+    sign = _first_extremum_signs(displacement, largest)
     return np.asarray(sign / (np.sqrt(mass) if normalisation == "mass" else largest))
 
 
-def _first_extremum_sign(y: Array) -> float:
-    """Return the sign of the first local maximum of abs(y), ends included."""
-    size = np.abs(y) / np.max(np.abs(y))
-    rises = np.concatenate([[True], size[1:] >= size[:-1]])
-    falls = np.concatenate([size[:-1] >= size[1:], [True]])
-    first = np.flatnonzero(rises & falls & (size > 1e-3))[0]
-    return 1.0 if y[first] >= 0 else -1.0
+def _first_extremum_signs(Y: Array, largest: Array) -> Array:
+    """Return the sign of the first local maximum of every column of abs(Y), ends included."""
+    size = np.abs(Y)
+    extreme = size > 1e-3 * largest
+    extreme[1:] &= size[1:] >= size[:-1]
+    extreme[:-1] &= size[:-1] >= size[1:]
+    first = np.argmax(extreme, axis=0)
+    return np.where(Y[first, np.arange(Y.shape[1])] >= 0, 1.0, -1.0)
 
 
 def _mode(
@@ -472,7 +474,7 @@ def _with_joint_brackets(modes: list[Mode]) -> list[Mode]:
             groups[-1].append(mode)
         else:
             groups.append([mode])
-    return [mode for group in groups for mode in _sharing(group)]
+    return [mode for group in groups for mode in (_sharing(group) if group[1:] else group)]
 
 
 def _sharing(group: list[Mode]) -> list[Mode]:

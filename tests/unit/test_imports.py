@@ -36,10 +36,11 @@ RICCATI = (
     "riccati.segment",
     "riccati.chain",
     "riccati.roots",
-    "riccati.lanes",
-    "riccati.compiled",
     "riccati.loads",
     "riccati.shapes",
+    "riccati.lanes",
+    "riccati.lane_shapes",
+    "riccati.compiled",
     "riccati.literal",
 )
 BEAM = ("attachments", "beam", "limits", "axial")

@@ -1,8 +1,7 @@
-"""Bending frequencies and shapes fast enough for a moving slider: some 10 ms.
+"""Bending frequencies and shapes fast enough for a moving slider: some milliseconds.
 
-Two chains, one with half the steps, are solved by the compiled kernel; their difference bounds the
-error, which must be below 1e-4 of each frequency. Beams that the kernel does not know (attachments,
-modes that coincide), and all while it is not compiled yet, go through `solve_modes` instead.
+Frequencies are the compiled ones, to 1e-4; shapes are those of one chain at these frequencies.
+Modes that coincide, and all while the kernel is not compiled, go through `solve_modes` instead.
 """
 
 from __future__ import annotations
@@ -15,16 +14,16 @@ import numpy.typing as npt
 
 from antinode.batch import BeamBatch, solve_many
 from antinode.beam import Beam
+from antinode.frequencies import natural_frequencies
+from antinode.kernel import shapes_for
 from antinode.modes import solve_modes
-from antinode.riccati.chain import Chain
-from antinode.riccati.shapes import mode_states
 
 Array = npt.NDArray[np.float64]
 
 TOLERANCE = 1e-4
 _POINTS = 121
-_SAFETY = 2.5 / 15  # of the change by halving the steps
-_PAST_BUCKLING = 6  # index of batch.REASONS: solved, with omega^2 < 0
+_REFINEMENT = 2  # of the chain whose shapes are shown
+_PARTED = 1e-6  # relative distance of omega^2 below which shapes need `solve_modes`
 _ready = threading.Event()
 
 
@@ -66,15 +65,8 @@ def wait_until_warm(timeout: float = 120.0) -> bool:
 
 
 def quick_omega2(beam: Beam, modes: int) -> Array:
-    """Return omega^2 of the first bending modes, for a curve: the finer chain alone.
-
-    Its error was seen at the place where the page stands, by `quick_modes`.
-    """
-    fast = _by_kernel(beam, modes, refinements=(2,))
-    if fast is not None:
-        return fast[0]
-    result = solve_modes(beam, modes, tolerance=TOLERANCE, families=["bending"])
-    return np.array([mode.omega2 for mode in result.modes if mode.number][:modes])
+    """Return omega^2 of the first bending modes, for a curve."""
+    return natural_frequencies(beam, modes, tolerance=TOLERANCE).omega2
 
 
 def quick_modes(beam: Beam, modes: int) -> Quick:
@@ -85,38 +77,24 @@ def quick_modes(beam: Beam, modes: int) -> Quick:
     ComputationError
         If they cannot be computed.
     """
-    fast = _by_kernel(beam, modes)
-    if fast is None:
-        result = solve_modes(beam, modes, tolerance=TOLERANCE, families=["bending"])
-        found = [mode for mode in result.modes if mode.number][:modes]
-        states = np.stack([mode.states for mode in found], axis=1)
-        error = np.array([mode.error_omega2 for mode in found])
-        return Quick(np.array([mode.omega2 for mode in found]), error, result.x, states)
-    omega2, error, chain = fast
-    chain = chain.cut_at(np.linspace(0.0, beam.length, _POINTS))
+    if not _ready.is_set():
+        return _full_modes(beam, modes)
+    found = natural_frequencies(beam, modes, tolerance=TOLERANCE)
+    if np.any(np.diff(found.omega2) <= _PARTED * np.abs(found.omega2[1:])):
+        return _full_modes(beam, modes)
+    chain = beam.chain("bending", _REFINEMENT).cut_at(np.linspace(0.0, beam.length, _POINTS))
     with np.errstate(all="ignore"):
-        states = mode_states(chain, omega2, np.ones(modes, dtype=np.int64))
-    return Quick(omega2, error, beam.x[0] + chain.nodes, _scaled(states))
+        solver = shapes_for(len(chain.length), modes)
+        states = solver.mode_states(chain, found.omega2, np.ones(modes, dtype=np.int64))
+    return Quick(found.omega2, found.error_omega2, beam.x[0] + chain.nodes, _scaled(states))
 
 
-def _by_kernel(
-    beam: Beam, modes: int, refinements: tuple[int, ...] = (1, 2)
-) -> tuple[Array, Array, Chain] | None:
-    """Return omega^2, its error and the finest chain; None where the kernel will not do."""
-    if not _ready.is_set() or beam.attachments:
-        return None
-    found = []
-    for refinement in refinements:
-        chain = beam.chain("bending", refinement)
-        arrays = (chain.length, chain.mass, chain.stiffness, chain.axial_force)
-        result = solve_many(BeamBatch(*arrays, ends=beam.ends, modes=modes))
-        if result.reason[0] not in (0, _PAST_BUCKLING):
-            return None
-        found.append(result.omega2[0])
-    error = np.abs(found[-1] - found[0]) * _SAFETY
-    if np.any(error > 2 * TOLERANCE * np.abs(found[-1])):
-        return None
-    return found[-1], error, chain
+def _full_modes(beam: Beam, modes: int) -> Quick:
+    result = solve_modes(beam, modes, tolerance=TOLERANCE, families=["bending"])
+    found = [mode for mode in result.modes if mode.number][:modes]
+    states = np.stack([mode.states for mode in found], axis=1)
+    error = np.array([mode.error_omega2 for mode in found])
+    return Quick(np.array([mode.omega2 for mode in found]), error, result.x, states)
 
 
 def _scaled(states: Array) -> Array:

@@ -19,6 +19,7 @@ side tell its inertia without dividing by anything that can vanish.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -73,7 +74,7 @@ class Chain:
     family: Family = "bending"
     points: tuple[Point, ...] = ()
 
-    @property
+    @cached_property
     def nodes(self) -> Array:
         """Positions of the joints and ends, from zero [m], shape (n + 1,)."""
         return np.concatenate([[0.0], np.cumsum(self.length)])
@@ -104,14 +105,15 @@ class Chain:
         points = tuple(replace(p, node=int(places[p.node])) for p in self.points)
         return replace(self, length=np.diff(cuts), points=points, **arrays)
 
+    @cached_property
     def reference(self) -> tuple[float, float]:
-        """Return stiffness and mass per length that scale the equations (means over the length)."""
+        """Stiffness and mass per length that scale the equations (means over the length)."""
         weight = self.length / np.sum(self.length)
         return float(np.exp(weight @ np.log(self.stiffness))), float(weight @ self.mass)
 
     def scale_length(self, omega2: Array) -> Array:
         """Return the length [m] that makes the states of a wave at `omega2` of order one."""
-        stiffness, mass = self.reference()
+        stiffness, mass = self.reference
         inertia = np.abs(omega2) * mass / stiffness
         total = float(np.sum(self.length))
         if self.family == "longitudinal":
@@ -123,7 +125,7 @@ class Chain:
 
 def omega2_scale(chain: Chain) -> float:
     """Return a natural unit of omega^2 for the chain [rad^2/s^2]: EI/(m L^4) or EA/(m L^2)."""
-    stiffness, mass = chain.reference()
+    stiffness, mass = chain.reference
     power = 4 if chain.family == "bending" else 2
     return stiffness / (mass * float(np.sum(chain.length)) ** power)
 
@@ -192,7 +194,7 @@ def segment_transfers(
         For states ``[Y/l, theta, M l/EI0, Q l^2/EI0]`` (or ``[X/l, Q/EA0]``), with l from
         `Chain.scale_length` and EI0 from `Chain.reference`.
     """
-    scale, (stiffness, _) = chain.scale_length(omega2), chain.reference()
+    scale, (stiffness, _) = chain.scale_length(omega2), chain.reference
     h = (chain.length[segment] if length is None else length)[:, None] / scale
     rigidity, mass = chain.stiffness[segment, None] / stiffness, chain.mass[segment, None]
     if chain.family == "longitudinal":
@@ -203,7 +205,7 @@ def segment_transfers(
 
 def state_units(chain: Chain, omega2: Array) -> Array:
     """Return what one unit of each scaled state component is in SI, shape (k, s)."""
-    scale, (stiffness, _) = chain.scale_length(omega2), chain.reference()
+    scale, (stiffness, _) = chain.scale_length(omega2), chain.reference
     one = np.ones_like(scale)
     if chain.family == "longitudinal":
         return np.stack([scale, stiffness * one], axis=-1)

@@ -12,18 +12,28 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from . import lanes
-from .chain import Chain, Evaluation, omega2_scale
+from . import lane_shapes, lanes, shapes
+from .chain import (
+    ZERO_COMPONENTS,
+    Chain,
+    Evaluation,
+    largest_wave_number,
+    omega2_scale,
+    state_units,
+)
 from .chain import evaluate as evaluate_readable
 from .lanes import CERTIFIED, ENDS, LANES, TABLE_TOO_SMALL
 from .points import Point
 from .roots import Eigenvalue
+from .segment import LONGEST_STEP
 
 Array = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 
 _KEPT = 16  # sizes of chains whose arrays a thread keeps
 _MOST_STEPS = 4096  # coarsest ones of a beam
+_MOST_NODES = 20_000  # whose frames are kept
+_ZERO = ZERO_COMPONENTS["bending"]
 
 
 def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
@@ -66,7 +76,7 @@ def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
 def _units(chain: Chain) -> tuple[float, float, float]:
     """Return length [m], EI [N m^2] and mass per length [kg/m] that make a chain dimensionless."""
     L = float(np.sum(chain.length))
-    return L, *chain.reference()
+    return L, *chain.reference
 
 
 def _point_table(chain: Chain, L: float, EI0: float, m0: float) -> tuple[Integers, Array]:
@@ -447,6 +457,95 @@ def _listed(roots: Roots, below: int) -> list[Eigenvalue]:
         Eigenvalue(below + k + 1, omega2, (low, high), (counts[0], counts[1]))
         for k, (omega2, low, high, counts) in enumerate(zip(*columns, strict=True))
     ]
+
+
+def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
+    """Return the states of the modes at every node: `riccati.shapes.mode_states`, compiled.
+
+    Supports between the ends, clusters and longitudinal modes are left to the readable form.
+    """
+    fine = None if _is_special(chain, multiplicity) else shapes.split_for(chain, omega2)
+    if fine is None or len(fine.length) > _MOST_NODES:
+        return shapes.mode_states(chain, omega2, multiplicity)
+    keep = shapes.kept_nodes(chain, fine)
+    parts = [_states(fine, omega2[i : i + LANES]) for i in range(0, len(omega2), LANES)]
+    return np.concatenate([part[keep] for part in parts], axis=1)
+
+
+def _is_special(chain: Chain, multiplicity: Integers) -> bool:
+    held = any(point.holds for point in chain.points)
+    return chain.family != "bending" or held or bool(np.any(multiplicity > 1))
+
+
+class _LaneChain:
+    """A chain in the units of up to eight modes."""
+
+    def __init__(self, chain: Chain, omega2: Array) -> None:
+        n, number = len(chain.length), len(omega2)
+        lane = np.minimum(np.arange(LANES), number - 1)
+        self.length, self.scale = chain.length, chain.scale_length(omega2)[lane]
+        self.units = state_units(chain, omega2)[lane]
+        self.EI, self.N, self.inertia = np.empty(n), np.empty((n, LANES)), np.empty((n, LANES))
+        lane_shapes.scaled_chain(
+            *(chain.mass, chain.stiffness, chain.axial_force, omega2[lane], self.scale),
+            *(chain.reference[0], self.EI, self.N, self.inertia),
+        )
+        self.scratch = np.zeros((lane_shapes.SCRATCH, LANES))
+
+    def transfers(self) -> Array:
+        U = np.empty((len(self.length), 10, LANES))
+        lane_shapes.transfers(
+            self.length, self.EI, self.N, self.inertia, self.scale, self.scratch, U
+        )
+        return U
+
+
+def _states(fine: Chain, omega2: Array) -> Array:
+    own = _LaneChain(fine, omega2)
+    n, number = len(fine.length), len(omega2)
+    frames, backs = np.empty((2, n + 1, 8, LANES)), np.empty((2, n + 1, 3, LANES))
+    free = [i for end in (fine.left, fine.right) for i in range(4) if i not in _ZERO[end]]
+    lane_shapes.sweeps(
+        *(own.transfers(), *_lane_points(fine, omega2, own.units)),
+        *(np.array(free).reshape(2, 2), own.scratch, *frames, *backs),
+    )
+    node, state = np.zeros(LANES, np.int64), np.empty((4, LANES))
+    lane_shapes.meet(*frames, own.scratch, node, state)
+    z = np.empty((n + 1, number, 4))
+    lane_shapes.carry(*frames, *backs, node, state, own.units, z)
+    return z
+
+
+def _lane_points(chain: Chain, omega2: Array, units: Array) -> tuple[Integers, Array]:
+    """Return which point sits at every node (-1: none), and what `lane_shapes.sweeps` needs."""
+    marks, table = np.full(len(chain.length) + 1, -1), np.zeros((len(chain.points), 5, LANES))
+    lane = np.minimum(np.arange(LANES), len(omega2) - 1)
+    for k, point in enumerate(chain.points):
+        marks[point.node] = k
+        for kind, T in point.steps(4, omega2[lane], units):
+            if kind == "load":
+                table[k, :4] = T[:, 3, 0], T[:, 3, 1], T[:, 2, 0], T[:, 2, 1]
+                table[k, 3] = T[:, 2, 1]
+            else:
+                table[k, 4] = T[:, 1, 2]
+    return marks, table
+
+
+def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies:
+    """Return modal mass and stiffness of modes: `riccati.shapes.mode_energies`, compiled."""
+    phase = float(np.max(largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length))
+    if chain.family != "bending" or phase > LONGEST_STEP:
+        return shapes.mode_energies(chain, states, omega2)
+    share, weight = shapes.gauss_rule(phase)
+    total = np.zeros((4, len(chain.length), len(omega2)))
+    for i in range(0, len(omega2), LANES):
+        own = _LaneChain(chain, omega2[i : i + LANES])
+        lane_shapes.squares(
+            *(own.length, own.EI, own.N, own.inertia, own.scale, own.units),
+            *(np.ascontiguousarray(states[:, i : i + LANES]), share, weight, own.scratch),
+            total[:, :, i : i + LANES],
+        )
+    return shapes.energies(chain, states, shapes.Squares(*total))
 
 
 def compiled_here() -> bool:

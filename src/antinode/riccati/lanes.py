@@ -73,14 +73,14 @@ def _wide(_typing: Any) -> Any:
 _wide_vectors: Any = intrinsic(_wide)
 
 
-_OPTIONS: dict[str, Any] = {
+OPTIONS: dict[str, Any] = {
     "cache": True,
     "nogil": True,
     "error_model": "numpy",
     "fastmath": {"contract", "nsz", "arcp"},
     "_nrt": False,  # nothing is allocated inside, and no array's references are counted
 }
-_compiled = numba.njit(**_OPTIONS)
+_compiled = numba.njit(**OPTIONS)
 
 
 # --- the table of pieces ----------------------------------------------------------------------

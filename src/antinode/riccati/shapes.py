@@ -9,6 +9,7 @@ solution.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -144,8 +145,8 @@ def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
         are independent of each other.
     """
     largest = float(np.max(np.abs(omega2)))
-    fine = split_long(chain, largest)
-    keep = _kept_nodes(chain, fine)
+    fine = split_for(chain, omega2)
+    keep = kept_nodes(chain, fine)
     together = max(1, 4_000_000 // (16 * len(fine.length)))
     parts, first = [], 0
     while first < len(omega2):
@@ -157,7 +158,13 @@ def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
     return np.concatenate(parts, axis=1)
 
 
-def _kept_nodes(chain: Chain, fine: Chain) -> Integers:
+def split_for(chain: Chain, omega2: Array) -> Chain:
+    """Return the chain with its segments cut short enough for the series at every omega^2."""
+    return split_long(chain, float(np.max(np.abs(omega2))))
+
+
+def kept_nodes(chain: Chain, fine: Chain) -> Integers:
+    """Return where the nodes of a chain lie among those of a finer one."""
     ends = np.searchsorted(fine.nodes, chain.nodes)
     nearest = np.abs(fine.nodes[np.maximum(ends - 1, 0)] - chain.nodes)
     after = np.abs(fine.nodes[np.minimum(ends, len(fine.length))] - chain.nodes)
@@ -278,7 +285,11 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> Energies:
     states : array, shape (n + 1, k, s)
     omega2 : array, shape (k,)
     """
-    squares = integrate_squares(chain, states, omega2)
+    return energies(chain, states, integrate_squares(chain, states, omega2))
+
+
+def energies(chain: Chain, states: Array, squares: Squares) -> Energies:
+    """Return modal mass and stiffness from the integrals over the segments, and the points."""
     mass = chain.mass @ squares.displacement
     strain = (1 / chain.stiffness) @ squares.moment
     work = chain.axial_force @ squares.slope
@@ -310,16 +321,22 @@ def integrate_squares(chain: Chain, states: Array, omega2: Array) -> Squares:
     omega2 : array, shape (k,)
     """
     phase = largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length
-    points, weights = np.polynomial.legendre.leggauss(_gauss_points(float(np.max(phase))))
     total = np.zeros((4, len(chain.length), len(omega2)))
-    for point, weight in zip((points + 1) / 2, weights / 2, strict=True):
+    for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
         z = propagate(chain, states[:-1], omega2, point * chain.length)
         total += weight * chain.length[:, None] * _squares(chain, z)
     return Squares(*total)
 
 
-def _gauss_points(phase: float) -> int:
-    return 3 if phase < 0.05 else 4 if phase < 0.2 else 6 if phase < 0.7 else 10
+def gauss_rule(phase: float) -> tuple[Array, Array]:
+    """Return points on 0 ... 1 and weights for squares of states over so much of a wave."""
+    return _rule(3 if phase < 0.05 else 4 if phase < 0.2 else 6 if phase < 0.7 else 10)
+
+
+@cache
+def _rule(number: int) -> tuple[Array, Array]:
+    points, weights = np.polynomial.legendre.leggauss(number)
+    return (points + 1) / 2, weights / 2
 
 
 def _squares(chain: Chain, z: Array) -> Array:
