@@ -22,7 +22,7 @@ class ScikitFem:
             lambda u, v, w: u.grad[0] * v.grad[0],
             lambda u, v, w: u * v,
         )
-        self.elements = [BilinearForm(form).elemental(basis) for form in forms]
+        self.elements = [BilinearForm(form).coo_data(basis) for form in forms]
         self.local = [elements.tolocal() for elements in self.elements]
 
     def omega2(self, m, EI, N, modes):
