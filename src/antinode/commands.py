@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from .case import Case
     from .result import ModalResult
 
+Values = Callable[[], dict[str, Any]]
 app = App(
     name="antinode",
     version=__version__,
@@ -71,18 +73,14 @@ def modes(
     """
     _check_output(output, modal=True)
     from .case import load_case
-    from .loads_table import condition_dict, loads_summary
 
     problem = load_case(case, set_)
     result = _solve(problem, solver)
-    data = result.to_dict()
-    data["condition"], data["loads"] = condition_dict(problem), loads_summary(problem)
-    data["warnings"] = [*problem.loads.warnings, *data["warnings"]]
     if output.plot:
         from .figures import plot_case
 
         draw(plot_case(problem, result), output.plot)
-    _write_modes(output, data, result)
+    _write_modes(output, result, lambda: _case_dict(problem, result))
     if not output.json:
         from .printing import console, show_condition, show_modes
 
@@ -119,17 +117,17 @@ def beam(
     from .beam_file import load_beam
 
     result = _solve(load_beam(file, set_), solver)
-    data, critical = result.to_dict(), None
+    critical = None
     if buckling:
         from .buckling import buckling as find_factor
 
         critical = find_factor(result.beam, result.tolerance)
-        data["buckling"] = critical.to_dict() if critical else None
+    found = {"buckling": critical.to_dict() if critical else None} if buckling else {}
     if output.plot:
         from .figures import plot_modes
 
         draw(plot_modes(result), output.plot)
-    _write_modes(output, data, result)
+    _write_modes(output, result, lambda: result.to_dict() | found)
     if not output.json:
         from .printing import console, show_beam, show_buckling, show_modes
 
@@ -425,8 +423,23 @@ def _check_output(output: Output, *, modal: bool = False) -> None:
     check_plot(output.plot)
 
 
-def _write_modes(output: Output, data: dict[str, Any], result: ModalResult) -> None:
+def _case_dict(problem: Case, result: ModalResult) -> dict[str, Any]:
+    """Return modes of a vehicle as plain values, with its condition and loads."""
+    from .loads_table import condition_dict, loads_summary
+
+    data = result.to_dict()
+    data["condition"], data["loads"] = condition_dict(problem), loads_summary(problem)
+    data["warnings"] = [*problem.loads.warnings, *data["warnings"]]
+    return data
+
+
+def _write_modes(
+    output: Output, result: ModalResult, to_dict: Callable[[], dict[str, Any]]
+) -> None:
     """Write modes to the file, and as JSON to stdout, as asked for."""
+    if not (output.file or output.json):
+        return
+    data = to_dict()
     if output.file:
         from .exchange.outputs import Modes, write_modes
 

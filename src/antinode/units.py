@@ -1,7 +1,8 @@
 """SI floats that may be written with a unit: ``"120 kN"`` becomes ``120000.0``.
 
 A plain number is already SI (an angle in radians). A string carries its unit; it is converted by
-pint, which is imported only when a string is met. Use the annotated types in pydantic models::
+pint, which is imported only for a unit that is not a common one. Use the annotated types in
+pydantic models::
 
     class Cavitator(Frozen):
         diameter: Annotated[Length, Field(gt=0)]
@@ -18,6 +19,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, PydanticKnownError, core_schema
+
+from .known_units import FACTORS
 
 if TYPE_CHECKING:
     import pint
@@ -102,8 +105,10 @@ def unit_factor(written: str, unit: str) -> float:
     ValueError
         If `written` is not a unit, has an offset (degC), or has another dimension than `unit`.
     """
-    if written.strip() == unit:
-        return 1.0
+    written = written.strip()
+    known = 1.0 if written == unit else FACTORS.get(unit, {}).get(written)
+    if known is not None:
+        return known
     wrong = (
         f"'{written}' is no unit of {unit}" if unit else "it needs a pure number, without a unit"
     )

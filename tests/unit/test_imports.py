@@ -17,7 +17,7 @@ from cli_run import run
 
 ROOT = Path(antinode.__file__).parent
 
-WORDS = ("errors", "text", "units")
+WORDS = ("errors", "text", "known_units", "units")
 PHYSICS = (
     "vehicle",
     "condition",
@@ -313,11 +313,18 @@ def test_a_beam_in_si_numbers_needs_numpy_alone(tmp_path):
     assert not {"antinode.loads", "antinode.case", "antinode.figures", "antinode.schema"} & own
 
 
-def test_a_vehicle_with_units_needs_pint_besides(tmp_path):
+def test_a_vehicle_in_common_units_needs_no_more(tmp_path):
     run("init", tmp_path)
     heavy, own = imported_by(COMMAND, "modes", tmp_path / "case.toml")
-    assert heavy - {"scipy"} == {"pint"}  # pint looks whether there is a scipy
+    assert heavy == set()
     assert "antinode.figures" not in own
+
+
+def test_other_units_need_pint(tmp_path):
+    run("init", tmp_path)
+    arguments = ("modes", tmp_path / "case.toml", "--set", "condition.speed=150knot")
+    heavy, _ = imported_by(COMMAND, *arguments)
+    assert heavy - {"scipy"} == {"pint"}  # pint looks whether there is a scipy
 
 
 def test_help_and_init_import_no_numpy(tmp_path):

@@ -3,9 +3,11 @@
 import math
 from functools import cached_property
 
+import pint
 import pytest
 from pydantic import ConfigDict, Field, ValidationError
 
+from antinode.known_units import FACTORS
 from antinode.units import Angle, Force, Frozen, Length, Number, to_si, unit_factor
 
 
@@ -46,6 +48,16 @@ class Sample(Frozen):
 )
 def test_converts(text, unit, value):
     assert to_si(text, unit) == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("written", "unit"), [(w, u) for u, known in FACTORS.items() for w in known]
+)
+def test_what_is_known_without_pint_is_what_pint_says(written, unit):
+    registry = pint.get_application_registry()
+    quantity = registry.Quantity(1.0, registry.parse_units(written))
+    asked = quantity.to(unit or "dimensionless").magnitude
+    assert unit_factor(written, unit) == pytest.approx(asked, rel=3e-16)
 
 
 @pytest.mark.parametrize(
