@@ -6,9 +6,10 @@ to do next.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar, get_args, get_origin
+from typing import Any, NamedTuple, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
@@ -26,6 +27,7 @@ def validate(
     tables: Mapping[str, Any],
     where: str,
     elsewhere: Mapping[str, Path] | None = None,
+    rows: Collection[str] = (),
 ) -> Checked:
     """Check the tables of a file against their model; say the first thing that is wrong.
 
@@ -39,6 +41,8 @@ def validate(
         The file, for the message.
     elsewhere : mapping, optional
         Files that tables come from which stand in a file of their own, by the tables' keys.
+    rows : collection of str
+        Lists whose entries the message calls rows; they, and what a row lists, count from 1.
 
     Raises
     ------
@@ -48,20 +52,42 @@ def validate(
     try:
         return model.model_validate(tables)
     except ValidationError as error:
-        raise InputError(_explain(model, error, where, elsewhere or {})) from error
+        raise InputError(_explain(model, error, Places(where, elsewhere or {}, rows))) from error
     except RecursionError as error:
         raise InputError(f"{where}: tables are nested too deeply; flatten them") from error
 
 
-def _explain(
-    model: type[BaseModel], error: ValidationError, where: str, elsewhere: Mapping[str, Path]
-) -> str:
+class Places(NamedTuple):
+    """How a message names what is wrong: the file, files of tables, lists of rows."""
+
+    where: str
+    elsewhere: Mapping[str, Path]
+    rows: Collection[str]
+
+    def of(self, key: str) -> tuple[str, str]:
+        """Return where a key stands, down to its row, and the key there."""
+        lists = (*self.elsewhere, *self.rows)
+        table = next((t for t in lists if key == t or key.startswith(f"{t}.")), None)
+        if table is None:
+            return self.where, key
+        file = self.elsewhere.get(table)
+        rest = key[len(table) + 1 :]
+        number, _, inside = rest.partition(".")
+        if table not in self.rows or not number:
+            return (self.where, key) if file is None else (str(file), rest)
+        row = f"row {int(number) + 1}"
+        names = _INDEX.sub(lambda found: f" {int(found[1]) + 1}", inside).replace(".", ", ")
+        return (f"{self.where}: {table}, {row}" if file is None else f"{file}, {row}"), names
+
+
+_INDEX = re.compile(r"\.(\d+)")
+
+
+def _explain(model: type[BaseModel], error: ValidationError, places: Places) -> str:
     problems = error.errors(include_url=False)
     first = min(problems, key=lambda p: (p["type"] != "extra_forbidden", p["type"] == "missing"))
     key = key_text(model, first["loc"], unknown=first["type"] == "extra_forbidden")
-    for table, file in elsewhere.items():
-        if key == table or key.startswith(f"{table}."):
-            where, key = str(file), key[len(table) + 1 :]
+    where, key = places.of(key)
     others = len(problems) - 1
     more = f" ({others} more problem{'s' * (others > 1)} after this one)" if others else ""
     return f"{where}: {_sentence(model, key, first)}{more}"
@@ -108,7 +134,7 @@ def _sentence(model: type[BaseModel], key: str, problem: Problem) -> str:
         say = _ALLOWED[kind].format_map(context)
     else:
         say = f"{problem['msg'][:1].lower()}{problem['msg'][1:]}: correct it"
-    return f"{key or 'the file'} is {short(problem['input'])}; {say}"
+    return f"{key or 'this'} is {short(problem['input'])}; {say}"
 
 
 _LIST = "it must be a list of at least one entry: write [ ... ], or [[...]] for tables"

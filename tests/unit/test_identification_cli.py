@@ -109,6 +109,11 @@ IN_FILE = {
     "case gone": ("case.toml", "cse.toml", ["no such file", "case.toml"]),
     "table gone": ("observations.csv", "observation.csv", ["no such file", "observations.csv"]),
     "no rows": ('"observations.csv"', "[]", ["observations", "one row"]),
+    "a row's frequency": ('"observations.csv"', "[{ bending = [3] }, { bending = [3, -10] }]",
+                          ["identify.toml: observations, row 2: bending 2 is -10"]),
+    "a row's key": ('"observations.csv"', "[{ bending = [3] }, { speeed = 3 }]",
+                    ["observations, row 2: unknown key speeed", "speed"]),
+    "no table": ('"observations.csv"', "[3]", ["observations, row 1: this is 3", "a table"]),
     "path leads nowhere": ("vehicle.cavitator.diameter", "vehicle.cavitator.diametre",
                            ["'vehicle.cavitator.diametre'", "did you mean diameter"]),
     "path to a choice": ("vehicle.cavitator.diameter", "model.planing", ["choice", "number"]),
@@ -137,14 +142,14 @@ IN_TABLE = {
     "mode without a number": ("bending:2", "bending:two", ["bending:two", "from 1"]),
     "column twice": ("bending:2", "bending:1", ["bending:1", "twice"]),
     "unit": ("bending:1 [Hz]", "bending:1 [kg]", ["Hz"]),
-    "negative": ("3.248709", "-3.2", ["bending", "greater than 0"]),
+    "negative": ("23.5", "-3.2", ["observations.csv, row 2: bending 3 is", "greater than 0"]),
     "text": ("3.248709", "about 3", ["about 3"]),
     "infinite": ("3.248709", "inf", ["finite"]),
     "cells": ("20.666779", "20.666779, 5", ["7 cells", "6 in the header"]),
     "unknown state": ("burnt", "burned", ["burned", "burnt"]),
     "repeated": ("steep, 15, burnt, 3.592436, ", "steep, 10, , 3.592436, ", ["row 2", "row 1"]),
     "empty row": ("3.592436, , 23.5", ", ,", ["row 2", "no frequency"]),
-    "angle": ("steep, 15", "steep, 75", ["75 deg", "60 deg"]),
+    "angle": ("steep, 15", "steep, 75", ["row 2: cavitator_angle", "75 deg", "60 deg"]),
 }
 
 

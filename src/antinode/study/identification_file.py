@@ -282,7 +282,7 @@ def load_identification(path: str | Path, assignments: Iterable[str] = ()) -> Id
         tables["observations"] = read_observations(path.parent / source)
     elif source == []:
         raise InputError(f"{where}: observations is empty; give one row at the least")
-    file = validate(IdentificationFile, tables, where, elsewhere)
+    file = validate(IdentificationFile, tables, where, elsewhere, ("observations",))
     return IdentificationProblem(
         case=load_case(path.parent / file.case),
         observations=file.observations,
