@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from .riccati.chain import Family
 from .riccati.points import Point
 
 Array = npt.NDArray[np.float64]
+APART = 1e-8
+"""Least distance of two supports over the length of the beam; nearer ones hold nothing between."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +84,7 @@ class Joint:
 Attachment = PointMass | Spring | Joint
 
 
-def check_attachments(attachments: Iterable[Attachment], x: Array) -> None:
+def check_attachments(attachments: Sequence[Attachment], x: Array) -> None:
     """Raise InputError unless every attachment has values that make sense and lies on the beam."""
     for item in attachments:
         what = f"the {_NAMES[type(item)]} at x = {item.x:g} m"
@@ -93,6 +96,25 @@ def check_attachments(attachments: Iterable[Attachment], x: Array) -> None:
                 raise InputError(f"{what}: {name} is {value:g}; it must be finite and at least 0")
         if isinstance(item, Joint) and item.x in (x[0], x[-1]):
             raise InputError(f"{what} stands at an end; a joint needs beam on both sides")
+    check_supports_apart(held_places(attachments), x)
+
+
+def held_places(attachments: Iterable[Attachment]) -> list[float]:
+    """Return where supports hold the beam sideways [m]."""
+    springs = (item for item in attachments if isinstance(item, Spring))
+    return [spring.x for spring in springs if spring.translational == math.inf]
+
+
+def check_supports_apart(places: Iterable[float], x: Array) -> None:
+    """Raise InputError if two places that hold the beam sideways all but coincide [m]."""
+    length = float(x[-1] - x[0])
+    for a, b in pairwise(sorted(set(places))):
+        if b - a < APART * length:
+            raise InputError(
+                f"the supports at x = {a:.15g} m and x = {b:.15g} m are {b - a:.2g} m apart; they "
+                f"must stand at one place, or at least {APART * length:.2g} m apart, {APART:g} of "
+                "the beam's length: give both the same x, or remove one"
+            )
 
 
 def name_of(item: Attachment) -> str:

@@ -1,6 +1,7 @@
 """Reading files: what a table of stations may look like, overrides, limits, and where a key is."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -8,8 +9,8 @@ import numpy as np
 import pytest
 
 from antinode import InputError, load_beam, load_case
-from antinode.attachments import PointMass
-from antinode.beam import Beam
+from antinode.attachments import PointMass, Spring
+from antinode.beam import Beam, Ends
 from antinode.beam_file import BeamFile
 from antinode.case import Case
 from antinode.examples import EXAMPLES, write_example
@@ -20,6 +21,7 @@ from antinode.override import override
 from antinode.text import nearest, one_line, short
 from antinode.units import Frozen
 from antinode.vehicle import Vehicle
+from cli_run import refused, run
 
 COLUMNS = ("x", "mass_per_length", "bending_stiffness")
 TABLE = "x [mm],mass_per_length [kg/m],bending_stiffness [kN m^2]\n0,1,2\n500,3,4\n"
@@ -265,6 +267,9 @@ def uniform(length=2.0, m=1.0, EI=1.0, N=0.0, EA=None):
     return Beam.from_stations(x, m * one, EI * one, None if EA is None else EA * one, N * one)
 
 
+PINNED = replace(uniform(), ends=Ends("pinned", "free"))
+
+
 class TestLimits:
     @pytest.mark.parametrize(
         "beam",
@@ -275,6 +280,7 @@ class TestLimits:
             uniform(m=1e-20, EI=1e20),
             uniform(N=-1e5),
             uniform(N=100.0),
+            PINNED.with_attachments(Spring(0.0, math.inf), Spring(3e-8, math.inf)),
         ],
     )
     def test_large_and_small_are_allowed(self, beam):
@@ -293,12 +299,23 @@ class TestLimits:
             (uniform(N=1e300), "modes diverge"),
             (uniform(N=-1e10), "tension"),
             (uniform().with_attachments(PointMass(0.5, 1e20)), "hold the beam there by a support"),
+            (PINNED.with_attachments(Spring(1e-9, math.inf)), "x = 0 m and x = 1e-09 m"),
         ],
     )
     def test_beyond_all_reason(self, beam, words):
         with pytest.raises(InputError) as refusal:
             check_limits(beam)
         assert words in str(refusal.value)
+
+
+def test_supports_that_all_but_coincide(tmp_path):
+    run("init", "--beam", tmp_path)
+    text = (tmp_path / "beam.toml").read_text()
+    for x in (0.1, 0.10000000001):
+        text += f"[[beam.springs]]\nx = {x}\ntranslational = inf\n"
+    (tmp_path / "beam.toml").write_text(text)
+    words = ("beam.toml", "x = 0.1 m and x = 0.10000000001 m", "at least", "the same x")
+    refused(run("beam", tmp_path / "beam.toml"), *words)
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
