@@ -17,6 +17,7 @@ import numpy as np
 
 from . import __version__
 from .errors import InputError
+from .extras import import_extra
 from .result import COMPONENTS, ModalResult, Mode
 from .text import short
 
@@ -43,7 +44,7 @@ def modal_dataset(result: ModalResult) -> xarray.Dataset:
     InputError
         If xarray is not installed.
     """
-    xr = import_extra("xarray")
+    xr = import_extra("xarray", "dataset")
     modes = result.modes
     data: dict[str, Any] = {
         name: ("mode", [_nan(getattr(m, name)) for m in modes], {"units": unit, "long_name": text})
@@ -96,18 +97,6 @@ def _attributes(result: ModalResult) -> dict[str, Any]:
 
 def _nan(value: float | None) -> float:
     return math.nan if value is None else value
-
-
-def import_extra(module: str, extra: str = "dataset") -> Any:
-    """Import a library of an extra, or say how to install it."""
-    import importlib
-
-    try:
-        return importlib.import_module(module)
-    except ImportError as error:
-        raise InputError(
-            f"{module} is not installed; add it with: pip install 'antinode[{extra}]'"
-        ) from error
 
 
 def modal_table(result: ModalResult) -> str:
@@ -205,7 +194,7 @@ def check_output(path: Path, endings: Iterable[str]) -> None:
         raise InputError(f"{path}: this is a folder; name a file in it")
     if path.suffix.lower() == ".nc":
         for module in ("xarray", "h5netcdf"):
-            import_extra(module)
+            import_extra(module, "dataset")
     if exists and path.suffix.lower() == ".csv" and _is_station_table(path):
         raise InputError(f"{path}: this is a table of stations, an input; name another file")
 

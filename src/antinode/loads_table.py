@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import __version__
-from .dataset import import_extra
+from .extras import import_extra
 
 if TYPE_CHECKING:
     import xarray
@@ -142,7 +142,7 @@ def loads_csv(case: Case) -> str:
 
 def loads_dataset(case: Case) -> xarray.Dataset:
     """Return N, Q, M along the body as a Dataset with units, forces and checks in its attrs."""
-    xr = import_extra("xarray")
+    xr = import_extra("xarray", "dataset")
     table = internal_forces(case)
     data = {
         name: ("point", table[name], {"units": unit, "long_name": text})

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from .errors import InputError
+from .extras import import_extra
 
 FILE = Path(__file__).with_name("antinode.mplstyle")
 """The style file: `matplotlib.pyplot.style.use(FILE)` gives it to figures of one's own."""
@@ -37,12 +37,7 @@ BODY, EDGE, WATER = "#C9CED6", "#4B5563", "#DCEBF7"
 
 def pyplot() -> Any:
     """Return matplotlib.pyplot, drawing to files; raise InputError if it is not installed."""
-    try:
-        import matplotlib
-    except ImportError as error:
-        raise InputError(
-            "matplotlib is not installed; add it with: pip install 'antinode[plot]'"
-        ) from error
+    matplotlib = import_extra("matplotlib", "plot")
     matplotlib.use("Agg", force=False)
     import matplotlib.pyplot as plt
 

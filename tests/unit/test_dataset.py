@@ -10,7 +10,8 @@ import pytest
 
 from antinode import InputError, solve_modes
 from antinode.beam import Beam, Ends
-from antinode.dataset import check_output, import_extra, modal_table, to_json, write_result
+from antinode.dataset import check_output, modal_table, to_json, write_result
+from antinode.extras import import_extra
 from antinode.result import COMPONENTS
 
 
@@ -140,4 +141,4 @@ class TestWriting:
 
 def test_a_missing_library_names_the_command_that_adds_it():
     with pytest.raises(InputError, match=r"pip install 'antinode\[dataset\]'"):
-        import_extra("no_such_library")
+        import_extra("no_such_library", "dataset")

@@ -17,7 +17,7 @@ from cli_run import run
 
 ROOT = Path(antinode.__file__).parent
 
-WORDS = ("errors", "text", "known_units", "units")
+WORDS = ("errors", "text", "extras", "known_units", "units")
 PHYSICS = (
     "vehicle",
     "condition",
@@ -134,7 +134,6 @@ REPORT = (
 )
 EXCHANGE = (
     "exchange",
-    "exchange.extras",
     "exchange.units",
     "exchange.formats",
     "exchange.tabulated",

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from antinode.errors import InputError
+from antinode.extras import import_extra
 
 if TYPE_CHECKING:
     from .state import State
@@ -127,14 +128,9 @@ def opened(state: State, query: dict[str, str]) -> tuple[State, str]:
 
 def _import_nicegui() -> None:
     """Import NiceGUI, or say how to install it."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            import nicegui  # noqa: F401
-    except ImportError as error:
-        raise InputError(
-            "nicegui is not installed; add it with: pip install 'antinode[web]'"
-        ) from error
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        import_extra("nicegui", "web")
 
 
 def _free_port(host: str, port: int) -> int:

@@ -9,21 +9,11 @@ from nicegui import ui
 
 from antinode.case import Case
 from antinode.errors import AntinodeError
+from antinode.files import COLUMN_UNITS
 
 from .display import System, shown_unit
 from .inputs import Problem
 from .session import Session
-
-_UNITS = {
-    "x": "m",
-    "mass_per_length": "kg/m",
-    "bending_stiffness": "N m^2",
-    "axial_stiffness": "N",
-    "axial_force": "N",
-    "radius": "m",
-    "radius_of_gyration": "m",
-    "wall": "m",
-}
 
 
 def columns_of(problem: Problem) -> dict[str, np.ndarray]:
@@ -52,7 +42,7 @@ def shown_rows(problem: Problem, system: System) -> list[dict[str, float]]:
 
 def unit_of(name: str, system: System) -> tuple[str, float]:
     """Return name and factor of a column's unit on the screen."""
-    shown = shown_unit(_UNITS.get(name.partition(":")[0], ""), system)
+    shown = shown_unit(COLUMN_UNITS.get(name.partition(":")[0], ""), system)
     return shown.name, shown.factor
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from antinode.beam import Beam
 from antinode.dataset import check_output, modal_table, write_result, write_whole
+from antinode.extras import import_extra
 from antinode.result import ModalResult
 
 from .formats import MODAL_ENDINGS, MODAL_FORMATS, Format, format_of
@@ -90,10 +91,8 @@ def _whole(path: Path, write: Callable[[Path], Notes]) -> Notes:
 
 def check_libraries(how: Format) -> None:
     """Raise InputError if a library for a format is missing."""
-    from .extras import need
-
     if how == "xlsx":
-        need("openpyxl")
+        import_extra("openpyxl", "exchange")
 
 
 def _toml(path: Path, beam: Beam) -> Notes:

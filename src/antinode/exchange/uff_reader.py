@@ -21,10 +21,10 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.errors import InputError
+from antinode.extras import import_extra
 from antinode.files import read_bytes
 from antinode.text import counted
 
-from .extras import need
 from .frf import Peak, find_modes
 from .units import SI, System
 
@@ -108,7 +108,7 @@ def _rows(sets: Sequence[Row], geometry: Geometry, path: Path) -> tuple[list[Row
 def _sets(path: Path) -> list[Row]:
     """Return the datasets that matter, as pyuff reads them."""
     content = read_bytes(path, MOST_BYTES, "a universal file")
-    pyuff = need("pyuff")
+    pyuff = import_extra("pyuff", "exchange")
     handle, copy = tempfile.mkstemp(suffix=".uff")  # pyuff wants a name, and keeps no ending
     try:
         with os.fdopen(handle, "wb") as file:

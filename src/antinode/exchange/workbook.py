@@ -18,13 +18,13 @@ import numpy as np
 from antinode.beam import Beam
 from antinode.dataset import modal_table
 from antinode.errors import InputError
+from antinode.extras import import_extra
 from antinode.files import COLUMN_UNITS, MOST_ROWS, Row, read_bytes, station_columns
 from antinode.result import COMPONENTS, ModalResult
 from antinode.text import nearest, short
 from antinode.units import unit_factor
 
 from .beam_toml import attachment_tables, beam_tables, head_tables
-from .extras import need
 from .station_csv import KNOWN, beam_table
 from .tabulated import Hull, tabulate
 
@@ -62,7 +62,7 @@ def write_workbook(
     tuple of str
         What the workbook does not hold exactly.
     """
-    book = need("openpyxl").Workbook()
+    book = import_extra("openpyxl", "exchange").Workbook()
     book.remove(book.active)
     if result is not None:
         _fill(book, "modes", csv.reader(io.StringIO(modal_table(result))))
@@ -153,7 +153,7 @@ def read_workbook(path: Path) -> dict[str, Any]:
 def _sheets(path: Path) -> dict[str, list[Row]]:
     """Return the rows of the sheets that hold something of a beam, as text."""
     content = io.BytesIO(read_bytes(path, MOST_BYTES, "a workbook"))
-    openpyxl = need("openpyxl")
+    openpyxl = import_extra("openpyxl", "exchange")
     try:
         book = openpyxl.load_workbook(content, read_only=True, data_only=True)
         wanted = [n for n in ("stations", "beam", *ATTACHED) if n in book.sheetnames]

@@ -6,15 +6,15 @@ from importlib.resources import files
 from typing import Any
 
 from antinode import __version__
+from antinode.extras import import_extra
 from antinode.svg import for_page
 
 from .blocks import Document
-from .extras import import_library
 
 
 def to_html(document: Document) -> str:
     """Return the page."""
-    jinja2: Any = import_library("jinja2")
+    jinja2: Any = import_extra("jinja2", "report")
     text = files(__package__).joinpath("page.html").read_text(encoding="utf-8")
     environment = jinja2.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined

@@ -10,9 +10,9 @@ from typing import Any
 
 from antinode import __version__
 from antinode.errors import ComputationError
+from antinode.extras import import_extra
 
 from .blocks import Document
-from .extras import import_library
 
 
 def to_pdf(document: Document) -> bytes:
@@ -26,7 +26,7 @@ def to_pictures(document: Document, dots_per_inch: float = 100.0) -> list[bytes]
 
 
 def _compiled(document: Document, kind: str, **options: Any) -> list[bytes]:
-    typst: Any = import_library("typst")
+    typst: Any = import_extra("typst", "report")
     with TemporaryDirectory() as name:
         folder = Path(name)
         _write_sources(document, folder)
@@ -56,5 +56,5 @@ def _write_sources(document: Document, folder: Path) -> None:
 
 def _fonts() -> str:
     """Return the folder of the fonts that the drawings use: those of matplotlib."""
-    matplotlib: Any = import_library("matplotlib")
+    matplotlib: Any = import_extra("matplotlib", "report")
     return str(Path(matplotlib.get_data_path()) / "fonts" / "ttf")

@@ -19,6 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.errors import ComputationError, InputError
+from antinode.extras import import_extra
 from antinode.text import short
 
 from .chunks import compute_chunk
@@ -113,15 +114,9 @@ def connect(scheduler: str) -> Any:
     InputError
         If Dask is not installed, or nobody answers at the address.
     """
-    try:
-        import distributed
-    except ImportError as error:
-        raise InputError(
-            "distributed is not installed; add it with: pip install 'antinode[dask]'"
-        ) from error
     import logging
 
-    dask: Any = distributed
+    dask = import_extra("distributed", "dask")
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     try:
         return dask.Client(scheduler, timeout=_SECONDS, set_as_default=False)

@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.errors import ComputationError, InputError
+from antinode.extras import import_extra
 from antinode.text import short
 
 if TYPE_CHECKING:
@@ -57,18 +58,8 @@ class Variable(NamedTuple):
 
 def import_store() -> Any:
     """Return zarr; raise InputError if a library of the `sweep` extra is not installed."""
-    import importlib
-
-    for module in ("xarray", "zarr"):
-        try:
-            importlib.import_module(module)
-        except ImportError as error:
-            raise InputError(
-                f"{module} is not installed; add it with: pip install 'antinode[sweep]'"
-            ) from error
-    import zarr
-
-    return zarr
+    import_extra("xarray", "sweep")
+    return import_extra("zarr", "sweep")
 
 
 @contextmanager
