@@ -106,6 +106,18 @@ def test_derivatives_are_those_of_differences(folder):
         assert own == pytest.approx(difference, rel=2e-4, abs=2e-6 * np.abs(difference).max())
 
 
+def test_the_rows_of_a_column_add_up_to_the_column(folder):
+    rows = len(an.load_case(folder / "case.toml").vehicle.stations.x)
+    keys = [f"stations.mass_per_length.{k}" for k in range(rows)]
+    made = study(folder, *(f"{key}=1%" for key in keys), "mass_per_length=1%")
+    inputs = [i.model_copy(update={"name": f"row {k}"}) for k, i in enumerate(made.inputs)]
+    made = made.model_copy(update={"inputs": tuple(inputs)})
+    design = an.Study.model_fields["design"].annotation(kind="saltelli", number=8)
+    slopes = local_slopes(made, points_of(made.model_copy(update={"design": design})))
+    for _, slope in slopes.values():
+        assert slope[:-1].sum() == pytest.approx(slope[-1], rel=1e-9)
+
+
 def test_small_deviations_follow_from_the_derivatives(folder):
     made = study(folder, "bending_stiffness=0.5%", "mass_per_length=0.5%", "thrust=0.5kN")
     result = sensitivity(made, 256)

@@ -2,8 +2,7 @@
 
 For a vehicle the derivatives of omega^2 come from the mode shapes (`study/effects.py`), on both
 sides of the condition. Of a beam each input is moved by a thousandth both ways, and the beam solved
-anew. With the frequency
-f = sqrt(omega^2)/(2 pi)
+anew. With the frequency f = sqrt(omega^2)/(2 pi)
 
     (df/f) / (dp/p) = (p / (2 omega^2)) d(omega^2)/dp.
 """

@@ -212,10 +212,8 @@ def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]
         return dict.fromkeys(mode_names(study), (np.nan, nothing))
     for family, number in wanted.items():
         omega2 = response.modes[family].omega2
-        sensitivity = response.sensitivity(family)
-        by_input = np.stack(
-            [_by_input(study.case, sensitivity, v) for v in points.variables], axis=1
-        )
+        exact = response.sensitivity(family)
+        by_input = np.stack([_by_input(study.case, exact, v) for v in points.variables], axis=1)
         for k in range(number):
             with np.errstate(all="ignore"):
                 hz = float(np.sqrt(omega2[k]) / (2 * np.pi))
