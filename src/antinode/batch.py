@@ -39,7 +39,8 @@ REASONS = (
 
 _WIDTH = 0.98e-10  # of a bracket before its rounding, relative in omega^2
 _ROUNDING = 64 * np.finfo(float).eps
-_CLUSTERED, _PAST_BUCKLING = 5, 6
+_NOT_BRACKETED, _CLUSTERED, _PAST_BUCKLING = 2, 5, 6
+_ALONE = _NOT_BRACKETED, _CLUSTERED
 _FREE = Ends()
 
 
@@ -77,26 +78,38 @@ class BeamBatch:
     def __post_init__(self) -> None:
         if not 1 <= self.modes <= 500:
             raise InputError(f"modes is {self.modes}; allowed are 1 ... 500")
-        shapes = {name: np.shape(getattr(self, name)) for name in _ARRAYS}
-        try:
-            beams, n = np.broadcast_shapes((1, 1), *shapes.values())
-        except ValueError:
-            told = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-            raise InputError(
-                "the arrays of a batch have shapes (segments,) or (beams, segments); "
-                f"received {told}"
-            ) from None
-        most = max(len(np.atleast_2d(getattr(self, name))) for name in _ARRAYS[:3])
-        object.__setattr__(self, "_one_structure", most == 1)
-        for name in _ARRAYS:
-            own = np.atleast_2d(np.asarray(getattr(self, name), dtype=float))
-            rows = len(own) if name == "length" else beams
-            values = np.ascontiguousarray(np.broadcast_to(own, (rows, n)))
-            values.flags.writeable = False
-            object.__setattr__(self, name, values)
+        tables = [np.asarray(getattr(self, name), dtype=float) for name in _ARRAYS]
+        rows, n = _common_shape(tables)
+        object.__setattr__(self, "_one_structure", all(_rows(v) == 1 for v in tables[:3]))
+        for name, values in zip(_ARRAYS, tables, strict=True):
+            shape = (_rows(values) if name == "length" else rows, n)
+            if values.shape != shape:
+                whole = values.size == shape[0] * n
+                values = values.reshape(shape) if whole else np.broadcast_to(values, shape)
+            kept = np.ascontiguousarray(values).view()
+            kept.flags.writeable = False
+            object.__setattr__(self, name, kept)
 
     def __len__(self) -> int:
         return len(self.mass_per_length)
+
+
+def _rows(values: Array) -> int:
+    return len(values) if values.ndim > 1 else 1
+
+
+def _common_shape(tables: list[Array]) -> tuple[int, int]:
+    """Return how many beams and segments the arrays of a batch describe."""
+    rows, n = max(map(_rows, tables)), max(v.shape[-1] if v.ndim else 1 for v in tables)
+    for values in tables:
+        columns = values.shape[-1] if values.ndim else 1
+        if values.ndim > 2 or _rows(values) not in (1, rows) or columns not in (1, n) or not n:
+            told = ", ".join(f"{k} {v.shape}" for k, v in zip(_ARRAYS, tables, strict=True))
+            raise InputError(
+                "the arrays of a batch have shapes (segments,) or (beams, segments); "
+                f"received {told}"
+            )
+    return rows, n
 
 
 _ARRAYS = ("length", "mass_per_length", "bending_stiffness", "axial_force")
@@ -167,19 +180,22 @@ def solve_many(batch: BeamBatch) -> BatchResult:
     """
     kernel = compiled_kernel()
     beams, modes = len(batch), batch.modes
-    omega2, low, high, rounding = (np.full((beams, modes), np.nan) for _ in range(4))
+    omega2, low, high, rounding = np.zeros((4, beams, modes))
     counts = np.zeros((beams, modes, 2), dtype=np.int64)
-    results = omega2, low, high, counts, rounding
-    reason, evaluations = _solve(kernel, batch, results)
-    for row in np.flatnonzero(reason == _CLUSTERED):
-        reason[row] = _part(batch, int(row), (omega2, low, high, rounding), counts)
-    low, high = low - rounding, high + rounding
-    failed = reason != 0
-    omega2[failed], low[failed], high[failed], counts[failed] = np.nan, np.nan, np.nan, -1
-    _share(low, high, counts)
-    reason[~failed & (omega2[:, 0] < 0)] = _PAST_BUCKLING
+    reason, evaluations = _solve(kernel, batch, (omega2, low, high, counts, rounding))
+    if reason.any():
+        for row in np.flatnonzero(np.isin(reason, _ALONE)):
+            reason[row] = _alone(kernel, batch, int(row), (omega2, low, high, rounding), counts)
+        failed = reason != 0
+        omega2[failed], low[failed], high[failed], counts[failed] = np.nan, np.nan, np.nan, -1
+    bracket = np.empty((beams, modes, 2))
+    low = np.subtract(low, rounding, out=bracket[..., 0])
+    high = np.add(high, rounding, out=bracket[..., 1])
+    if (low[:, 1:] <= high[:, :-1]).any():
+        _share(low, high, counts)
+    reason[omega2[:, 0] < 0] = _PAST_BUCKLING
     error = np.maximum(high - omega2, omega2 - low)
-    return BatchResult(omega2, np.stack([low, high], axis=-1), counts, error, reason, evaluations)
+    return BatchResult(omega2, bracket, counts, error, reason, evaluations)
 
 
 def _solve(
@@ -233,8 +249,14 @@ def _exact(batch: BeamBatch, force: Array) -> Array:
     return solve_many(some).omega2
 
 
-def _part(batch: BeamBatch, row: int, results: tuple[Array, ...], counts: Integers) -> int:
-    """Solve a beam whose modes nearly coincide by frames, which part them; return the reason."""
+def _alone(
+    kernel: Any, batch: BeamBatch, row: int, results: tuple[Array, ...], counts: Integers
+) -> int:
+    """Solve a beam by itself; return the reason if it cannot be solved.
+
+    Modes that nearly coincide are parted by frames; past buckling an elastic mode lies below the
+    translation, whose omega^2 = 0 is set aside.
+    """
     below = rigid_modes_of(batch.ends)
     h = batch.length[row if len(batch.length) > 1 else 0]
     m, EI, N = (getattr(batch, name)[row] for name in _ARRAYS[1:])
@@ -242,13 +264,17 @@ def _part(batch: BeamBatch, row: int, results: tuple[Array, ...], counts: Intege
     translates = not {batch.ends.left, batch.ends.right} & {"clamped", "pinned"}
     zeros = below if not np.any(N) else int(translates)
     try:
-        found = find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
+        found = kernel.find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
+        if found is None or not check_certificate(found):
+            found = find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
         if not check_certificate(found):
-            return _CLUSTERED
-        wanted = found[below : below + batch.modes]
+            return _NOT_BRACKETED
+        others = [value for value in found if value.omega2 != 0.0]
+        moved = below - (len(found) - len(others))  # the rigid modes that N moves off zero
+        wanted = others[moved : moved + batch.modes]
         rounding = _rounding_by_shapes(chain, wanted)
     except (CountingError, ArithmeticError):
-        return _CLUSTERED
+        return _NOT_BRACKETED
     columns = [v.omega2 for v in wanted], *zip(*(v.bracket for v in wanted), strict=True), rounding
     for values, column in zip(results, columns, strict=True):
         values[row] = np.array(column)

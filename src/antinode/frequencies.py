@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from types import ModuleType
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -25,9 +24,6 @@ from .limits import out_of_range_is_an_error
 from .modes import HasBeam, rigid_modes, solve_modes
 from .result import hertz
 from .riccati.points import Point
-
-if TYPE_CHECKING:
-    from .riccati.compiled import Roots
 
 Array = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
@@ -73,7 +69,6 @@ class Frequencies:
         return self.frequencies_hz - [hertz(value) for value in lower.tolist()]
 
 
-@out_of_range_is_an_error()
 def natural_frequencies(
     problem: Beam | HasBeam, modes: int = 6, *, tolerance: float = 1e-6
 ) -> Frequencies:
@@ -103,10 +98,15 @@ def natural_frequencies(
         raise InputError(f"modes is {modes}; allowed are 1 ... 500")
     if not 1e-12 <= tolerance <= 0.1:
         raise InputError(f"tolerance is {tolerance:g}; allowed are 1e-12 ... 0.1 (relative)")
-    beam = problem if isinstance(problem, Beam) else problem.beam()
+    beam = problem if isinstance(problem, Beam) else _beam_of(problem)
     compiled = kernel_if_worthwhile(len(beam.x), modes)
     found = None if compiled is None else _by_kernel(compiled, beam, modes, tolerance)
     return found or _by_modes(beam, modes, tolerance)
+
+
+@out_of_range_is_an_error()
+def _beam_of(problem: HasBeam) -> Beam:
+    return problem.beam()
 
 
 def _by_modes(beam: Beam, modes: int, tolerance: float) -> Frequencies:
@@ -126,23 +126,24 @@ def _by_kernel(
 ) -> Frequencies | None:
     """Solve with steps halved until two extrapolated results agree; None where that fails."""
     held: tuple[str, str, tuple[Point, ...]] = beam.ends.left, beam.ends.right, ()
-    rigid = rigid_modes_of(beam.ends)
-    if beam.attachments:
-        held, rigid = beam.points("bending"), len(rigid_modes(beam, "bending"))
-    acceleration = float(beam.axial_acceleration)
+    rigid, acceleration, mass_left = rigid_modes_of(beam.ends), 0.0, _NOT_READ
+    if beam.attachments or beam.axial_acceleration:
+        held, rigid, acceleration, mass_left = _held_and_accelerated(beam)
     tables = compiled.Tables(
         *(beam.x, beam.mass_per_length, beam.bending_stiffness, beam.axial_force, acceleration),
-        *(beam.mass_left if acceleration else _NOT_READ, beam.interpolation == "log", LIMITS),
-        *held,
+        *(mass_left, beam.interpolation == "log", LIMITS, *held),
     )
     refinement = max(1, (modes + rigid) // _MODES_PER_REFINEMENT)
     found = compiled.solve_beam(tables, rigid, modes, refinement, tolerance, _WIDTH)
-    return _certified(found) if found.reason == compiled.CERTIFIED else None
+    if found.reason != compiled.CERTIFIED:
+        return None
+    return Frequencies(found.omega2, found.error, found.bracket, found.counts, found.segments)
 
 
-def _certified(found: Roots) -> Frequencies:
-    low, high = found.low - found.rounding, found.high + found.rounding
-    inside = np.minimum(np.maximum(found.omega2, low), high)
-    error = found.error + np.maximum(high - inside, inside - low)
-    bracket = np.array([low, high]).T
-    return Frequencies(found.omega2, error, bracket, found.counts, found.segments)
+@out_of_range_is_an_error()
+def _held_and_accelerated(
+    beam: Beam,
+) -> tuple[tuple[str, str, tuple[Point, ...]], int, float, Array]:
+    """Return the ends and points of a beam, its rigid modes, acceleration and mass left of x."""
+    held, rigid = beam.points("bending"), len(rigid_modes(beam, "bending"))
+    return held, rigid, float(beam.axial_acceleration), beam.mass_left

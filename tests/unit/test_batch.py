@@ -116,6 +116,35 @@ def test_past_buckling_is_said_with_the_negative_omega2():
     assert np.isfinite(result.frequencies_hz[2, 1:]).all()
 
 
+@pytest.mark.parametrize("ends", [("free", "free"), ("free", "sliding"), ("sliding", "sliding")])
+def test_past_buckling_where_the_beam_can_translate(ends):
+    """Elastic modes lie below the translation's omega^2 = 0, which no count sees as their index."""
+    rng = np.random.default_rng(4)
+    batch = random_batch(rng, *ends, beams=30)
+    load = rng.uniform(0.5, 12, (30, 1)) * np.pi**2 * 1e3 / np.sum(batch.length) ** 2
+    parts = batch.length[0], batch.mass_per_length, batch.bending_stiffness
+    batch = an.BeamBatch(*parts, load * rng.uniform(0.5, 1, (30, 15)), an.Ends(*ends), 5)
+    result = an.solve_many(batch)
+    assert set(result.reason) == {0, 6}
+    for row in range(0, 30, 3):
+        modes = [mode for mode in single(batch, row).modes if mode.number]
+        assert result.omega2[row] == pytest.approx([m.omega2 for m in modes[:5]], rel=1e-9)
+        assert result.counts[row].tolist() == [list(m.counts) for m in modes[:5]]
+
+
+@pytest.mark.parametrize("modes", [1, 3, 7, 20])
+@pytest.mark.parametrize("beams", [20, 200])
+def test_neighbours_of_any_kind_give_the_same(modes, beams):
+    """Unlike neighbours, like ones, and the same beam alone: the guess leaves no trace."""
+    batch = random_batch(np.random.default_rng(modes), "free", "clamped", beams, 25, modes)
+    result = an.solve_many(batch)
+    assert not result.reason.any()
+    for row in (0, beams // 2, beams - 1):
+        parts = (getattr(batch, name)[row] for name in ("mass_per_length", "bending_stiffness"))
+        alone = an.BeamBatch(batch.length, *parts, batch.axial_force[row], batch.ends, modes)
+        assert result.omega2[row] == pytest.approx(an.solve_many(alone).omega2[0], rel=3e-13)
+
+
 def test_any_number_of_modes():
     one = np.ones(4)
     for modes in (1, 9, 60):

@@ -33,6 +33,11 @@ Integers = npt.NDArray[np.int64]
 _KEPT = 16  # sizes of chains whose arrays a thread keeps
 _MOST_STEPS = 4096  # coarsest ones of a beam
 _MOST_NODES = 20_000  # whose frames are kept
+_MANY = 64  # chains of a batch from which integrals over shapes are worth their time
+_GUESSED = 1e-8  # relative width of brackets of the chain in the middle of a batch
+_NAMES = np.array(list(ENDS))
+_ENDS = {(left, right): np.array([ENDS[left], ENDS[right]]) for left in ENDS for right in ENDS}
+_NO_POINTS = np.empty(0, np.int64), np.empty((0, 8)), np.empty((0, 8))
 _ZERO = ZERO_COMPONENTS["bending"]
 
 
@@ -101,11 +106,11 @@ def _point_rows(points: Sequence[Point], L: float, EI0: float, m0: float) -> Arr
     return table
 
 
-def _workspace(n: int, roots: int) -> tuple[Array | Integers, ...]:
+def _workspace(n: int, roots: int) -> tuple[npt.NDArray[Any], ...]:
     """Return the arrays that `lanes.find_roots` writes into."""
     most = lanes.MOST_SAMPLES[0] + lanes.MOST_SAMPLES[1] * roots
     return (
-        np.empty((9, most)),
+        np.empty((most, 9)),
         np.empty(most),
         np.zeros(most, np.int64),
         np.empty(n + 1, np.int64),
@@ -121,7 +126,9 @@ def _workspace(n: int, roots: int) -> tuple[Array | Integers, ...]:
         np.zeros(4, np.int64),
         np.zeros(4),
         np.zeros(4),
-        np.zeros(2),
+        np.zeros((roots, 3)),
+        np.zeros(roots, np.int64),
+        np.zeros(roots, np.bool_),
     )
 
 
@@ -159,21 +166,38 @@ def solve_chains(
     chains, n = mass.shape
     roots = results[0].shape[1]
     reason, total = np.zeros(chains, np.int64), np.zeros(chains, np.int64)
-    warm, current, slope, own = (
-        np.zeros(1, bool),
-        np.zeros(roots),
-        np.zeros(roots),
-        np.empty((4, n)),
-    )
-    table, work, row = np.empty((lanes.ROWS, n + n // 2 + 8)), _workspace(n, roots), 0
+    neighbour, current, slope = np.full(1, -1), np.zeros(roots), np.zeros(roots)
+    weights, quotient, own = np.empty((3, 0, n)), np.zeros((2, roots)), np.empty((4, n))
+    if chains >= _MANY and len(length) == 1:
+        middle = [np.mean(values, axis=0) for values in (mass, stiffness, force)]
+        weights = _weights(Chain(length[0], *middle, *_NAMES[ends]), below, roots, weights)
+    table, work, row = _scratch.table(n + n // 2 + 8), _scratch.work(n, roots), 0
     while row < chains:
         row, columns = lanes.solve_rows(
-            *(length, mass, stiffness, force, ends, below, width, row, warm, current, slope),
-            *(own, table, work, *results, reason, total),
+            *(length, mass, stiffness, force, ends, below, width, weights, row),
+            *(neighbour, current, slope, quotient, own, table, work, *results, reason, total),
         )
         if row < chains:
-            warm[0], table = False, np.empty((lanes.ROWS, columns + columns // 2))
+            neighbour[0], table = -1, _scratch.table(columns)
     return reason, total
+
+
+def _weights(chain: Chain, below: int, roots: int, none: Array) -> Array:
+    """Return integrals of Y''^2, Y'^2 and Y^2 over the segments of a chain, (3, roots, n).
+
+    They tell how a root moves with the chain: what starts a search, and never what it finds.
+    """
+    with np.errstate(all="ignore"):
+        if not np.all(np.isfinite(chain.mass + chain.stiffness + chain.axial_force)):
+            return none
+        found = SingleChain(chain).roots(below, roots, _GUESSED)
+        if found.reason != CERTIFIED:
+            return none
+        states = mode_states(chain, found.omega2, np.ones(roots, np.int64)).transpose(2, 1, 0)
+        squares = (states[:3, :, 1:] ** 2 + states[:3, :, :-1] ** 2) * (chain.length / 2)
+        weights = squares[::-1] / (squares[0] @ chain.mass)[:, None]
+        weights[0] /= chain.stiffness**2
+    return np.ascontiguousarray(weights) if np.all(np.isfinite(weights)) else none
 
 
 def certify_guesses(
@@ -216,7 +240,7 @@ def certify_guesses(
 
 
 class Roots(NamedTuple):
-    """Consecutive eigenvalues, each with its certificate [rad^2/s^2], and how they were found."""
+    """Consecutive eigenvalues of one chain, each with its certificate [rad^2/s^2]."""
 
     reason: int
     omega2: Array
@@ -225,8 +249,19 @@ class Roots(NamedTuple):
     counts: Integers
     rounding: Array
     evaluations: int
+
+
+class BeamRoots(NamedTuple):
+    """Consecutive eigenvalues of one beam [rad^2/s^2]; empty but for the reason if it failed."""
+
+    reason: int
+    omega2: Array
     error: Array
-    """Of the representation by segments; zero for a chain."""
+    """Distance to the eigenvalue of the beam, at most, shape (roots,)."""
+    bracket: Array
+    """Of the finest chain, rounding included, shape (roots, 2)."""
+    counts: Integers
+    evaluations: int
     segments: int
     """Of the finest chain."""
 
@@ -255,7 +290,7 @@ class Tables(NamedTuple):
 
 def solve_beam(
     beam: Tables, below: int, number: int, refinement: int, tolerance: float, width: float
-) -> Roots:
+) -> BeamRoots:
     """Bracket and certify eigenvalues below + 1 ... below + number of a beam.
 
     Steps are halved until two extrapolated results agree; the brackets are those of the last chain.
@@ -270,31 +305,28 @@ def solve_beam(
         Relative width of the brackets in omega^2.
     """
     x, m, EI, N = (np.array(table, dtype=float, order="C") for table in beam[:4])
-    L, m0, EI0 = float(x[-1] - x[0]), float(m.sum() / m.size), float(EI.sum() / EI.size)
-    values, counts = np.zeros((5, number)), np.zeros((number, 2), np.int64)
-    better, error, low, high, rounding = values
-    evaluations = np.zeros(1, np.int64)
-    at = np.array([point.node for point in beam.points], dtype=np.int64)
-    ends, columns, segments = np.array([ENDS[beam.left], ENDS[beam.right]]), 0, 64
+    at, points, scaled = _NO_POINTS
+    if beam.points:
+        at = np.array([point.node for point in beam.points], dtype=np.int64)
+        points = _point_rows(beam.points, 1.0, 1.0, 1.0)
+        scaled = np.empty_like(points)
+    omega2, error, bracket = np.empty(number), np.empty(number), np.empty((number, 2))
+    counts, evaluations = np.empty((number, 2), np.int64), np.empty(1, np.int64)
+    columns, segments = 0, 64
     while True:
         reason, size = lanes.solve_levels(
             *(x, m, EI, N, beam.acceleration, beam.mass_left, beam.logarithmic, beam.limits),
-            *(ends, below, refinement, tolerance, width),
-            *(at, _point_rows(beam.points, L, EI0, m0), np.array([L, m0, EI0])),
-            *(better, error, low, high, counts, rounding, evaluations),
+            *(_ENDS[beam.left, beam.right], below, refinement, tolerance, width, at, points),
+            *(omega2, error, bracket, counts, evaluations),
             *_scratch.levels(len(m), segments, number),
-            *(_scratch.table(columns), _scratch.work(1, number)),
+            *(scaled, _scratch.table(columns), _scratch.work(1, number)),
         )
         if reason == TABLE_TOO_SMALL:
             columns = size
         elif reason == lanes.CHAIN_TOO_SMALL:
             segments = size
         else:
-            break
-    values *= EI0 / (m0 * L**4)
-    return Roots(
-        *(reason, better, low, high, counts, rounding, int(evaluations[0]), error, size),
-    )
+            return BeamRoots(reason, omega2, error, bracket, counts, int(evaluations[0]), size)
 
 
 class SingleChain:
@@ -344,20 +376,19 @@ class SingleChain:
             Relative width of the brackets in omega^2.
         """
         work, ends = self._work(number), np.array([self.left, self.right])
-        values, counts = np.zeros((6, number)), np.zeros((number, 2), np.int64)
-        root, slope, low, high, rounding, error = values
-        segments = self.own.shape[1]
-        columns = segments + 8
+        values, counts = np.zeros((5, number)), np.zeros((number, 2), np.int64)
+        root, slope, low, high, rounding = values
+        columns = self.own.shape[1] + 8
         while True:
             reason, total = lanes.find_roots(
-                *(*self.own, ends, below, False, root, slope, width, low, high, counts, rounding),
-                *(_scratch.table(columns), work, 0.0),
+                *(*self.own, ends, below, False, root, slope, width, True, low, high),
+                *(counts, rounding, _scratch.table(columns), work, 0.0),
             )
             if reason != TABLE_TOO_SMALL:
                 break
             columns = total
         values *= self.unit
-        return Roots(reason, root, low, high, counts, rounding, total, error, segments)
+        return Roots(reason, root, low, high, counts, rounding, total)
 
 
 class _Scratch(threading.local):
@@ -368,6 +399,7 @@ class _Scratch(threading.local):
         self.columns = np.empty((lanes.ROWS, 0))
         self.intervals: tuple[Any, ...] = _intervals(0)
         self.chain: tuple[Any, ...] = _chain(0)
+        self.by_level: dict[int, tuple[Any, ...]] = {}
 
     def work(self, n: int, roots: int) -> tuple[Any, ...]:
         """Return what `lanes.find_roots` writes into."""
@@ -384,13 +416,15 @@ class _Scratch(threading.local):
         return self.columns
 
     def levels(self, intervals: int, segments: int, roots: int) -> tuple[Any, ...]:
-        """Return what `lanes.solve_levels` writes into, but for the table and the last."""
+        """Return what `lanes.solve_levels` writes into, but for the last three."""
         if len(self.intervals[0]) < intervals:
             self.intervals = _intervals(intervals)
         if self.chain[0].shape[1] < segments:
             self.chain = _chain(2 * segments)
-        return (*self.intervals, *self.chain, np.empty((lanes.MOST_LEVELS + 1, roots)),
-                np.zeros(roots))  # fmt: skip
+        if roots not in self.by_level:
+            levels = np.empty((lanes.MOST_LEVELS, roots))
+            self.by_level[roots] = levels, tuple(np.empty(roots) for _ in range(7))
+        return *self.intervals, *self.chain, *self.by_level[roots]
 
 
 def _intervals(n: int) -> tuple[Array | Integers, ...]:

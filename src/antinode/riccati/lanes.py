@@ -40,6 +40,7 @@ ENDS = {"free": 0, "clamped": 1, "pinned": 2, "sliding": 3}
 
 _STEP = 0.6  # wave number times length of a piece, at most: four terms in c reach rounding
 _IN_C, _IN_N = 4, 9  # terms of the series in c and in n
+_FEW_UP_TO = 8e-3  # of n: its fifth power times 6/11! is below rounding, five terms do
 ROWS = 24  # of the table of pieces: 16 coefficients, n, 2c/omega^2, 4 ratios of units, h, 1/EI
 _RESCALE = 128  # pieces after which the lanes are scaled
 _HUGE = 4e6  # pieces
@@ -81,14 +82,30 @@ OPTIONS: dict[str, Any] = {
     "_nrt": False,  # nothing is allocated inside, and no array's references are counted
 }
 _compiled = numba.njit(**OPTIONS)
+_summing = numba.njit(**{**OPTIONS, "fastmath": {"contract", "nsz", "arcp", "reassoc"}})
 
 
 # --- the table of pieces ----------------------------------------------------------------------
 
 
 @_compiled
+def _all_short(h, m, EI, N, omega2):
+    """Tell whether wave number times length is below the limit in every segment."""
+    _wide_vectors()
+    longer = 0
+    for k in range(len(h)):
+        s = _STEP * _STEP / (h[k] * h[k])
+        longer += 1 if m[k] * omega2 > s * (s * EI[k] - abs(N[k])) else 0
+    return longer == 0
+
+
+@_compiled
 def count_pieces(h, m, EI, N, omega2, starts):
     """Set the first piece of every segment; return how many pieces reach up to |omega2|."""
+    if _all_short(h, m, EI, N, omega2):
+        for k in range(len(h) + 1):
+            starts[k] = k
+        return len(h)
     total = 0
     for k in range(len(h)):
         starts[k] = total
@@ -104,33 +121,69 @@ def count_pieces(h, m, EI, N, omega2, starts):
 @_compiled
 def fill_table(h, m, EI, N, starts, marks, table):
     """Fill the table: one column a piece."""
-    previous_h, previous_f = 1.0, 1.0
+    _wide_vectors()
+    n, inertia, length, flexibility = table[16], table[17], table[22], table[23]
+    last = starts[len(h)]
+    if last == len(h):
+        for k in range(last):
+            length[k], flexibility[k] = h[k], 1.0 / EI[k]
+            n[k], inertia[k] = N[k] * (h[k] * h[k] / EI[k]), 2.0 * m[k]
+    else:
+        for k in range(len(h)):
+            pieces = starts[k + 1] - starts[k]
+            size, f = h[k] / pieces, 1.0 / EI[k]
+            for i in range(starts[k], starts[k + 1]):
+                length[i], flexibility[i] = size, f
+                n[i], inertia[i] = N[k] * (size * size * f), 2.0 * m[k]
+    _fill_ratios(table, last)
     for k in range(len(h)):
-        pieces = starts[k + 1] - starts[k]
-        size, f = h[k] / pieces, 1.0 / EI[k]
         if marks[k] >= 0:
-            previous_h, previous_f = 1.0, 1.0
-        square = size * size
-        for i in range(starts[k], starts[k + 1]):
-            r, s = size / previous_h, f / previous_f
-            table[16, i], table[17, i] = N[k] * square * f, 2.0 * m[k] * square * square * f
-            table[18, i], table[19, i] = r * s, r * r * s
-            table[20, i], table[21, i] = r * r * r * s, r * r * r * r * s * s
-            table[22, i], table[23, i] = size, f
-            previous_h, previous_f = size, f
-    _fill_series(table, starts[len(h)])
+            _fill_ratio(table, starts[k], 1.0, 1.0)
+    _fill_ratio(table, 0, 1.0, 1.0)
+    _fill_series(table, last)
+
+
+@_compiled
+def _fill_ratios(table, last):
+    """Fill what depends on the units of a piece and of the one before; and complete 2c/omega^2."""
+    _wide_vectors()
+    inertia, r1, r2, r3, r4 = table[17], table[18], table[19], table[20], table[21]
+    length, flexibility = table[22], table[23]
+    for i in range(last):
+        square = length[i] * length[i]
+        inertia[i] *= square * square * flexibility[i]
+    for i in range(1, last):
+        r, s = length[i] / length[i - 1], flexibility[i] / flexibility[i - 1]
+        first, second = r * s, r * r * s
+        r1[i], r2[i], r3[i], r4[i] = first, second, r * second, second * second
+
+
+@_compiled
+def _fill_ratio(table, i, before_h, before_f):
+    """Fill the ratios of the units of one piece to those given."""
+    r, s = table[22, i] / before_h, table[23, i] / before_f
+    table[18, i], table[19, i] = r * s, r * r * s
+    table[20, i], table[21, i] = r * r * r * s, r * r * r * r * s * s
 
 
 @_compiled
 def _fill_series(table, last):
     """Fill the coefficients of the series, which follow from n."""
     _wide_vectors()
+    n, most = table[16], 0.0
+    for i in range(last):
+        most = max(most, abs(n[i]))
+    few = most < _FEW_UP_TO
     for g in range(4):
         for j in range(_IN_C):
             row = table[4 * g + j]
-            n = table[16]
             t0, t1, t2, t3, t4 = _T[g, j, 0], _T[g, j, 1], _T[g, j, 2], _T[g, j, 3], _T[g, j, 4]
             t5, t6, t7, t8 = _T[g, j, 5], _T[g, j, 6], _T[g, j, 7], _T[g, j, 8]
+            if few:
+                for i in range(last):
+                    x = n[i]
+                    row[i] = t0 + x * (t1 + x * (t2 + x * (t3 + x * t4)))
+                continue
             for i in range(last):
                 x = n[i]
                 row[i] = t0 + x * (
@@ -317,7 +370,7 @@ def _sweep(table, starts, marks, points, left, right, state, sign, value):
         sign[lane] = 1.0 if left > 0 else 0.0
     _start(state, left)
     first, n = 0, len(starts) - 1
-    for node in range(n + 1):
+    for node in range(n if len(points) == 0 else 0, n + 1):
         if marks[node] < 0 and node < n:
             continue
         _stretch(table, state, first, starts[node], sign)
@@ -357,6 +410,8 @@ _EPSILON = 64 * float(np.finfo(float).eps)  # rounding of the minors, relative
 _MARGIN = 0.45  # half the distance of the certifying samples, in widths
 _SURE = 0.3  # share of a bracket that rounding may take
 PARTED = 1e-7  # relative distance of roots below which frames part them, and their shapes
+_BESIDE = 1e-3  # relative distance from a first guess of a second sample, where a lane is free
+_FAR = 0.05  # relative likely error of a root up to which a second sample helps
 _NEIGHBOURS = 4  # roots on each side that are divided out
 
 
@@ -401,14 +456,14 @@ def _nearest(k, index, samples, total, root, near):
         left = root[k - 1]
     right = root[k + 1] if k + 1 < len(root) else np.inf
     for i in range(total):
-        x, count = samples[0, i], samples[1, i]
+        x, count = samples[i, 0], samples[i, 1]
         if x <= left or x >= right or count < index - 1 or count > index:
             continue
         away = abs(x - root[k])
-        if found == 4 and away >= abs(samples[0, near[3]] - root[k]):
+        if found == 4 and away >= abs(samples[near[3], 0] - root[k]):
             continue
         place = min(found, 3)
-        while place > 0 and abs(samples[0, near[place - 1]] - root[k]) > away:
+        while place > 0 and abs(samples[near[place - 1], 0] - root[k]) > away:
             near[place] = near[place - 1]
             place -= 1
         near[place] = i
@@ -424,7 +479,7 @@ def _latest(k, index, samples, root, own, near):
     right = root[k + 1] if k + 1 < len(root) else np.inf
     for i in range(4):
         j = own[k, i]
-        if j >= 0 and left < samples[0, j] < right and index - 1 <= samples[1, j] <= index:
+        if j >= 0 and left < samples[j, 0] < right and index - 1 <= samples[j, 1] <= index:
             near[found] = j
             found += 1
     return found
@@ -432,15 +487,22 @@ def _latest(k, index, samples, root, own, near):
 
 @_compiled
 def _interpolate(x, y, number):
-    """Return x where the polynomial x(y) through the points has y = 0 (Lagrange)."""
-    result = 0.0
-    for i in range(number):
-        term = x[i]
-        for j in range(number):
-            if j != i:
-                term *= -y[j] / (y[i] - y[j])
-        result += term
-    return result
+    """Return x where the polynomial x(y) through the points has y = 0 (Neville; x is lost).
+
+    Also the same without the last point, and the x of that.
+    """
+    farthest, rough = x[number - 1], x[0]
+    for size in range(1, number):
+        rough = x[0]
+        for i in range(number - size):
+            x[i] = (y[i] * x[i + 1] - y[i + size] * x[i]) / (y[i] - y[i + size])
+    return x[0], rough, farthest
+
+
+@_compiled
+def _shifted(value, power):
+    """Return the value times a power of two, which mostly is 0."""
+    return value if power == 0.0 else math.ldexp(value, int(power))
 
 
 @_compiled
@@ -453,73 +515,79 @@ def _predict(k, index, samples, total, root, rigid, slope, own, near, x, y):
         return root[k], np.inf
     for i in range(number):
         j = near[i]
-        value = math.ldexp(samples[2, j], int(samples[3, j] - samples[3, near[0]]))
-        x[i], y[i] = samples[0, j], value / _others(samples[0, j], root, k, rigid)
+        value = _shifted(samples[j, 2], samples[j, 3] - samples[near[0], 3])
+        x[i], y[i] = samples[j, 0], value / _others(samples[j, 0], root, k, rigid)
     if number == 1:
         if slope == 0.0:
             return root[k], np.inf
-        step = math.ldexp(y[0], int(samples[3, near[0]])) / slope
+        step = _shifted(y[0], samples[near[0], 3]) / slope
         return x[0] - step, abs(step)
-    better = _interpolate(x, y, number)
-    rough = _interpolate(x, y, number - 1) if number > 2 else x[0]
+    better, rough, farthest = _interpolate(x, y, number)
     gap = abs(root[k])
     if k > 0:
         gap = min(gap, abs(root[k] - root[k - 1]))
     if k + 1 < len(root):
         gap = min(gap, abs(root[k + 1] - root[k]))
-    return better, abs(better - rough) * min(1.0, abs(x[number - 1] - better) / gap)
+    return better, abs(better - rough) * min(1.0, abs(farthest - better) / gap)
 
 
 @_compiled
-def _slopes(samples, total, root, below, slope, near):
+def _slopes(samples, total, root, below, slope, own, near):
     """Set the divided function's slope at every root, for the next chain's first step."""
     for k in range(len(root)):
         slope[k] = 0.0
+        if _slope_from(samples, own[k], 4, root, k, below, slope):
+            continue
         number = _nearest(k, below + k + 1, samples, total, root, near)
-        for i in range(number):
-            j = near[i]
-            x = samples[0, j]
-            away = x - root[k]
-            if abs(away) > 1e-8 * abs(root[k]):
-                value = samples[2, j] / _others(x, root, k, below)
-                slope[k] = math.ldexp(value / away, int(samples[3, j]))
-                break
+        _slope_from(samples, near, number, root, k, below, slope)
+
+
+@_compiled
+def _slope_from(samples, near, number, root, k, below, slope):
+    """Set the slope at root k by the first of some samples that is not too near."""
+    for i in range(number):
+        j = near[i]
+        if j < 0:
+            return False
+        x = samples[j, 0]
+        away = x - root[k]
+        if 1e-8 * abs(root[k]) < abs(away) < 1e-2 * abs(root[k]):
+            slope[k] = _shifted(samples[j, 2] / _others(x, root, k, below) / away, samples[j, 3])
+            return True
+    return False
 
 
 @_compiled
 def _choose(
-    k, index, samples, total, lo, hi, root, rigid, slope, width, stuck, own, near, x, y, wanted
-):
-    """Return how many samples root k asks for next (0: certified), and set them."""
+    k, index, samples, total, lo, hi, root, rigid, slope, width, certify, stuck, own, near, x, y,
+    wanted
+):  # fmt: skip
+    """Return how many samples root k asks for next, and whether they certify it; set them.
+
+    No sample: it is found. wanted[2] is set to how far a second one may stand, or 0.
+    """
+    wanted[2] = 0.0
     bounded = math.isfinite(lo) and math.isfinite(hi)
     if bounded and hi - lo <= width * max(abs(lo), abs(hi)):
-        return 0
+        return 0, False
     if bounded and stuck[k] >= 5:
         stuck[k] = 0
-        if lo > 0.0 and hi > 2.0 * lo:
-            wanted[0] = math.sqrt(lo * hi)
-        else:
-            wanted[0] = (lo + hi) / 2
-        return 1
+        wanted[0] = _middle(lo, hi)
+        return 1, False
     guess, error = _predict(k, index, samples, total, root, rigid, slope, own, near, x, y)
-    inside = lo < guess < hi and math.isfinite(error)
-    if not inside:
-        if math.isinf(lo):
-            wanted[0] = hi - 4.0 * max(abs(hi), 1.0) if hi <= 1e-3 else hi / 8.0
-        elif math.isinf(hi):
-            wanted[0] = 2.0 * max(lo, 1.0)
-        elif lo > 0.0 and hi > 2.0 * lo:
-            wanted[0] = math.sqrt(lo * hi)
-        else:
-            wanted[0] = (lo + hi) / 2
-        root[k] = wanted[0]
-        return 1
+    if not (lo < guess < hi and math.isfinite(error)):
+        root[k] = wanted[0] = _middle(lo, hi)
+        return 1, False
     root[k] = guess
     size = abs(guess) * width
     if error > 0.1 * size:
         wanted[0] = guess
-        return 1
+        if guess + error < hi and error < _FAR * abs(guess):
+            wanted[2] = error
+        return 1, False
     number = 0
+    if not certify and bounded:
+        return number, False
     if lo < guess - _MARGIN * size:
         wanted[number] = guess - _MARGIN * size
         number += 1
@@ -528,17 +596,62 @@ def _choose(
         number += 1
     if number == 2 and hi - lo < 1.05 * size:
         number = 1
-    return number
+    return number, True
+
+
+@_compiled
+def _middle(lo, hi):
+    """Return a place that halves a bracket, or goes on from its one end."""
+    if math.isinf(lo):
+        return hi - 4.0 * max(abs(hi), 1.0) if hi <= 1e-3 else hi / 8.0
+    if math.isinf(hi):
+        return 2.0 * max(lo, 1.0)
+    if lo > 0.0 and hi > 2.0 * lo:
+        return math.sqrt(lo * hi)
+    return (lo + hi) / 2
+
+
+@_compiled
+def _schedule(number, certifies, wanted, before, asked, owner):
+    """Fill whole passes of lanes; return the number of samples.
+
+    Searches come first, then certificates as far as lanes are free, then second samples beside
+    those of the searches. Certificates alone all go at once.
+    """
+    total, waiting, roots = 0, 0, len(number)
+    for k in range(roots):
+        if certifies[k]:
+            waiting += number[k]
+        elif number[k]:
+            asked[total], owner[total] = wanted[k, 0], k
+            total += 1
+    searches = total
+    room = LANES * ((searches + LANES - 1) // LANES) if searches else waiting
+    for k in range(roots):
+        if not certifies[k]:
+            continue
+        if total + number[k] > room:
+            before[k] = np.inf  # it has not been tried: it is not stuck
+            continue
+        for i in range(number[k]):
+            asked[total], owner[total] = wanted[k, i], k
+            total += 1
+    for i in range(searches):
+        k = owner[i]
+        if wanted[k, 2] > 0.0 and total < room:
+            asked[total], owner[total] = wanted[k, 0] + wanted[k, 2], k
+            total += 1
+    return total
 
 
 @_compiled
 def _take_sample(lane, state, value, samples, total, below, low, high, counts, at):
     """Keep one lane, and let it narrow the brackets."""
     omega2, count = state[48 + lane], int(state[40 + lane])
-    samples[0, total], samples[1, total] = omega2, count
-    samples[2, total], samples[3, total] = value[lane], state[56 + lane]
+    samples[total, 0], samples[total, 1] = omega2, count
+    samples[total, 2], samples[total, 3] = value[lane], state[56 + lane]
     for row in range(5):
-        samples[4 + row, total] = state[8 * row + lane]
+        samples[total, 4 + row] = state[8 * row + lane]
     for k in range(len(low)):
         if count <= below + k:
             if omega2 > low[k]:
@@ -551,11 +664,11 @@ def _take_sample(lane, state, value, samples, total, below, low, high, counts, a
 def _between(samples, at, root):
     """Return the root by the secant of its bracket, where the ends have different signs."""
     low, high = at
-    before = samples[2, low]
-    after = math.ldexp(samples[2, high], int(samples[3, high] - samples[3, low]))
+    before = samples[low, 2]
+    after = _shifted(samples[high, 2], samples[high, 3] - samples[low, 3])
     if not before * after < 0.0:
         return root
-    return samples[0, low] + (samples[0, high] - samples[0, low]) * before / (before - after)
+    return samples[low, 0] + (samples[high, 0] - samples[low, 0]) * before / (before - after)
 
 
 @_compiled
@@ -566,15 +679,15 @@ def _rounding(samples, at, right, force):
     sure no nearer to them than the square root of rounding.
     """
     low, high = at
-    width = samples[0, high] - samples[0, low]
-    scale = 1.0 / math.sqrt(math.sqrt(abs(samples[0, low]) + force * force + 1.0))
+    width = samples[high, 0] - samples[low, 0]
+    scale = 1.0 / math.sqrt(math.sqrt(abs(samples[low, 0]) + force * force + 1.0))
     units = (1.0, scale, scale**2 / 2, scale**3 / 2, scale**4 / 2)
     size = 0.0
     for row in range(5):
-        size = max(size, abs(samples[4 + row, low]) * units[row])
+        size = max(size, abs(samples[low, 4 + row]) * units[row])
     unit = units[4] if right == 0 else units[0] if right == 1 else units[1 if right == 2 else 3]
-    other = math.ldexp(samples[2, high], int(samples[3, high] - samples[3, low]))
-    rise = (abs(samples[2, low]) + abs(other)) * unit
+    other = _shifted(samples[high, 2], samples[high, 3] - samples[low, 3])
+    rise = (abs(samples[low, 2]) + abs(other)) * unit
     return _EPSILON * size * width / rise if rise > 0.0 else np.inf
 
 
@@ -601,10 +714,12 @@ def _watch(low, high, before, stuck, root, centre):
 
 @_compiled
 def find_roots(
-    h, m, EI, N, ends, below, warm, root, slope, width, low, high, counts, rounding, table, work,
-    reach,
+    h, m, EI, N, ends, below, warm, root, slope, width, certify, low, high, counts, rounding,
+    table, work, reach,
 ):  # fmt: skip
     """Bracket and certify the eigenvalues below + 1 ... below + len(root) of one chain.
+
+    Without `certify` each is only enclosed, and predicted to a tenth of the width.
 
     `root` holds guesses if `warm`, `slope` those of `_slopes`; both are set for the next chain.
     If the table is filled up to some omega^2 = `reach` > 0, the guesses are taken for exact: the
@@ -612,7 +727,7 @@ def find_roots(
     Returns the reason, and the number of samples, or that of the table's columns needed.
     """
     samples, asked, owner, starts, marks, points, state, sign, value, before = work[:10]
-    stuck, at, own, near, x, y, wanted = work[10:]
+    stuck, at, own, near, x, y, wanted, requests, certifies = work[10:]
     total, number = 0, len(root)
     for k in range(number):
         asked[k], owner[k], before[k], stuck[k] = root[k], k, np.inf, 0
@@ -630,8 +745,13 @@ def find_roots(
             size = _MARGIN * width * abs(root[k])
             asked[2 * k], asked[2 * k + 1] = root[k] - size, root[k] + size
             owner[2 * k] = owner[2 * k + 1] = k
+    else:
+        for k in range(len(root)):
+            requests[k], certifies[k] = 1, False
+            wanted[k, 0], wanted[k, 2] = root[k], _BESIDE * abs(root[k])
+        number = _schedule(requests, certifies, wanted, before, asked, owner)
     for turn in range(_MOST_PASSES):
-        if total + number > samples.shape[1]:
+        if total + number > len(samples):
             break
         largest = 0.0
         for k in range(number):
@@ -658,20 +778,19 @@ def find_roots(
                     own[k, 0] = total
                 total += 1
         _watch(low, high, before, stuck, root, turn == 0 and not warm)
-        number = 0
         for k in range(len(root)):
-            more = _choose(
+            requests[k], certifies[k] = _choose(
                 *(k, below + k + 1, samples, total, low[k], high[k], root, below, slope[k]),
-                *(width, stuck, own, near, x, y, wanted),
+                *(width, certify, stuck, own, near, x, y, wanted[k]),
             )
-            for i in range(more):
-                asked[number], owner[number] = wanted[i], k
-                number += 1
+        number = _schedule(requests, certifies, wanted, before, asked, owner)
         if number == 0:
-            for k in range(len(root)):
+            for k in range(len(root) if certify else 0):
                 root[k] = _between(samples, at[k], root[k])
                 root[k] = min(max(root[k], low[k]), high[k])
-            _slopes(samples, total, root, below, slope, near)
+            _slopes(samples, total, root, below, slope, own, near)
+            if not certify:
+                return CERTIFIED, total
             force, most, sure = 0.0, 0.0, True
             for i in range(len(h)):
                 force, most = force + abs(N[i]) * h[i], max(most, abs(N[i]))
@@ -717,31 +836,65 @@ def make_dimensionless(own):
     return L, m0, EI0
 
 
+@_summing
+def _quotients(weights, mass, stiffness, force, quotient):
+    """Set Rayleigh's quotients of given shapes for a chain [rad^2/s^2].
+
+    `weights` holds the integrals of Y''^2, Y'^2 and Y^2 over every segment, by shape.
+    """
+    for k in range(len(quotient)):
+        bending, slope, displacement = weights[0, k], weights[1, k], weights[2, k]
+        stored, moving = 0.0, 0.0
+        for i in range(len(mass)):
+            stored += stiffness[i] * bending[i] - force[i] * slope[i]
+            moving += mass[i] * displacement[i]
+        quotient[k] = stored / moving
+
+
+@_compiled
+def _guess(root, quotient, before, unit, current):
+    """Guess the roots from a neighbour's and the change of Rayleigh's quotients, if they rise."""
+    for k in range(1, len(root)):
+        last = root[k - 1] + (quotient[k - 1] - before[k - 1])
+        if not last < root[k] + (quotient[k] - before[k]):
+            return
+    for k in range(len(root)):
+        current[k] = (root[k] + (quotient[k] - before[k])) / unit
+
+
 @_compiled
 def solve_rows(
-    length, mass, stiffness, force, ends, below, width, first, warm, current, slope, own, table,
-    work, root, low, high, counts, rounding, reason, total
+    length, mass, stiffness, force, ends, below, width, weights, first, neighbour, current, slope,
+    quotient, own, table, work, root, low, high, counts, rounding, reason, total
 ):  # fmt: skip
-    """Solve chains from row `first` on; return (row, columns) if one needs a larger table."""
+    """Solve chains from row `first` on; return (row, columns) if one needs a larger table.
+
+    Each starts from the roots of its neighbour, the row solved before (-1: none).
+    """
     for b in range(first, len(mass)):
         i = b if len(length) > 1 else 0
         if not _is_valid(length[i], mass[b], stiffness[b], force[b]):
             reason[b] = INVALID
             continue
         unit = _dimensionless(length[i], mass[b], stiffness[b], force[b], own)
+        if weights.shape[1]:
+            _quotients(weights, mass[b], stiffness[b], force[b], quotient[0])
+            if neighbour[0] >= 0:
+                _guess(root[neighbour[0]], quotient[0], quotient[1], unit, current)
         for _attempt in range(2):
             reason[b], more = find_roots(
-                *(own[0], own[1], own[2], own[3], ends, below, warm[0], current, slope),
-                *(width, low[b], high[b], counts[b], rounding[b], table, work, 0.0),
+                *(own[0], own[1], own[2], own[3], ends, below, neighbour[0] >= 0, current, slope),
+                *(width, True, low[b], high[b], counts[b], rounding[b], table, work, 0.0),
             )
             if reason[b] == TABLE_TOO_SMALL:
                 return b, more
             total[b] += more
-            if reason[b] == CERTIFIED or reason[b] == CLUSTERED or not warm[0]:
+            if reason[b] == CERTIFIED or reason[b] == CLUSTERED or neighbour[0] < 0:
                 break
-            warm[0] = False
-        warm[0] = reason[b] == CERTIFIED
+            neighbour[0] = -1
+        neighbour[0] = b if reason[b] == CERTIFIED else -1
         for k in range(root.shape[1]):
+            quotient[1, k] = quotient[0, k]
             root[b, k] = unit * min(max(current[k], low[b, k]), high[b, k])
             low[b, k], high[b, k] = unit * low[b, k], unit * high[b, k]
             rounding[b, k] *= unit
@@ -785,7 +938,7 @@ def certify_rows(
             _fill_force(own[3], starts, table)
         reason[b], more = find_roots(
             *(own[0], own[1], own[2], own[3], ends, below, True, root[b], slope, width),
-            *(low[b], high[b], counts[b], rounding[b], table, work, reach),
+            *(True, low[b], high[b], counts[b], rounding[b], table, work, reach),
         )
         total[b] += more
         if more > 2 * root.shape[1]:
@@ -806,12 +959,34 @@ NEAR = 0.5 + math.sqrt(3) / 3
 CHAIN_TOO_SMALL, TOO_MANY_STEPS, NOT_CONVERGED = -2, 6, 7
 
 MOST_LEVELS = 7
+_COARSE = 1e-8  # relative width of chains that only tell how omega^2 changes
 _SHARE = 1 / 4  # of the last change of the extrapolated omega^2: its error falls by 16 or more
 
 
 @_compiled
 def _at(a, b, t, log):
-    return a * (b / a) ** t if log else a + (b - a) * t
+    if t == 0.0:
+        return a
+    if t == 1.0:
+        return b
+    return a * math.exp(math.log(b / a) * t) if log else a + (b - a) * t
+
+
+@_compiled
+def _gauss_values(a, b, start, step, log):
+    """Return a property at the two Gauss points of the first of equal steps of an interval.
+
+    And what it grows by from one step to the next, or is multiplied by.
+    """
+    if not log:
+        first, second = start + step * GAUSS, start + step * (1.0 - GAUSS)
+        return a + (b - a) * first, a + (b - a) * second, (b - a) * step
+    if a == b:
+        return a, a, 1.0
+    rate = math.log(b / a)
+    near, times = math.exp(rate * step * GAUSS), math.exp(rate * step)
+    first = a * math.exp(rate * start) * near
+    return first, first * (times / (near * near)), times
 
 
 @_compiled
@@ -894,11 +1069,14 @@ def make_halves(
             i += 1
             continue
         step = size[s] / refinement
+        m1, m2, dm = _gauss_values(m[k, 0], m[k, 1], start[s], step, log)
+        s1, s2, ds = _gauss_values(EI[k, 0], EI[k, 1], start[s], step, log)
         for r in range(refinement):
             t1, t2 = start[s] + step * (r + GAUSS), start[s] + step * (r + 1.0 - GAUSS)
-            m1, m2 = _at(m[k, 0], m[k, 1], t1, log), _at(m[k, 0], m[k, 1], t2, log)
-            f1 = 1.0 / _at(EI[k, 0], EI[k, 1], t1, log)
-            f2 = 1.0 / _at(EI[k, 0], EI[k, 1], t2, log)
+            if r > 0:
+                m1, m2 = (m1 * dm, m2 * dm) if log else (m1 + dm, m2 + dm)
+                s1, s2 = (s1 * ds, s2 * ds) if log else (s1 + ds, s2 + ds)
+            f1, f2 = 1.0 / s1, 1.0 / s2
             n1, n2 = _at(N[k, 0], N[k, 1], t1, False), _at(N[k, 0], N[k, 1], t2, False)
             if acceleration != 0.0:
                 n1 += acceleration * (mass_left[k] + _mass_until(m[k, 0], m[k, 1], h, t1, log))
@@ -914,35 +1092,76 @@ def make_halves(
 
 
 @_compiled
-def _refined(levels, level, tolerance, error, better):
-    """Extrapolate twice and compare; return whether every omega^2 is within the tolerance."""
+def _refined(levels, level, tolerance, coarse, error, better):
+    """Extrapolate twice and compare; return whether every omega^2 is within the tolerance.
+
+    Roots of the first two levels may err by a tenth of the width `coarse`, of which 1/15 counts.
+    """
     sure = True
     for k in range(levels.shape[1]):
         a, b, c = levels[level - 2, k], levels[level - 1, k], levels[level, k]
         better[k] = c + (c - b) / 15
-        error[k] = _SHARE * abs(better[k] - (b + (b - a) / 15))
+        error[k] = _SHARE * abs(better[k] - (b + (b - a) / 15)) + coarse / 100 * abs(better[k])
         sure = sure and error[k] <= 2.0 * tolerance * abs(better[k])
     return sure
 
 
 @_compiled
+def _in_units(x, m, EI, points, scaled):
+    """Make points dimensionless; return length, mean mass per length and mean EI of a beam."""
+    L, m0, EI0, n = x[len(x) - 1] - x[0], 0.0, 0.0, len(m)
+    for k in range(n):
+        m0, EI0 = m0 + (m[k, 0] + m[k, 1]) / (2 * n), EI0 + (EI[k, 0] + EI[k, 1]) / (2 * n)
+    mass, spring = m0 * L, EI0 / (L * L * L)
+    units = (mass, mass * L, mass * L * L, spring, spring * L * L, 1.0, 1.0, L / EI0)
+    for k in range(len(points)):
+        for i in range(8):
+            scaled[k, i] = points[k, i] / units[i]
+    return L, m0, EI0
+
+
+@_compiled
+def _to_chain(n, L, m0, EI0, own, at, first, marks):
+    """Make the segments of a beam dimensionless, and mark the nodes of its points."""
+    for i in range(n):
+        own[0, i], own[1, i] = own[0, i] / L, own[1, i] / m0
+        own[2, i], own[3, i] = own[2, i] / EI0, own[3, i] * (L * L / EI0)
+    for i in range(n + 1):
+        marks[i] = -1
+    for i in range(len(at)):
+        marks[first[at[i]]] = i
+
+
+@_compiled
+def _report(unit, better, error, low, high, rounding, omega2, error_omega2, bracket):
+    """Set results in SI; the error is that of the segments, and the way to the bracket's end."""
+    for k in range(len(better)):
+        below, above = low[k] - rounding[k], high[k] + rounding[k]
+        inside = min(max(better[k], below), above)
+        omega2[k] = unit * better[k]
+        error_omega2[k] = unit * (error[k] + max(above - inside, inside - below))
+        bracket[k, 0], bracket[k, 1] = unit * below, unit * above
+
+
+@_compiled
 def solve_levels(
     x, m, EI, N, acceleration, mass_left, log, limits, ends, below, refinement, tolerance, width,
-    at, points, units, better, error, low, high, counts, rounding, evaluations,
-    varies, first, interval, steps, own, starts, marks, levels, slope, table, work,
+    at, points, omega2, error_omega2, bracket, counts, evaluations,
+    varies, first, interval, steps, own, starts, marks, levels, roots, scaled, table, work,
 ):  # fmt: skip
     """Solve a beam with steps halved each time, until two extrapolated results agree.
 
     `at` holds the breakpoints of the points. Returns the reason and the number of segments of the
-    finest chain; or what is too small, and the size it needs. omega^2 and all else in units of the
-    beam: length, mass per length and EI are given in `units`.
+    finest chain; or what is too small, and the size it needs.
     """
-    L, m0, EI0 = units[0], units[1], units[2]
+    L, m0, EI0 = _in_units(x, m, EI, points, scaled)
     varying = _varying(m, EI, N, acceleration, varies)
     number = coarsest_steps(x, m, EI, varies, log, limits, interval, steps)
     if number < 0:
         return TOO_MANY_STEPS, 0
-    root, evaluations[0] = levels[MOST_LEVELS], 0
+    root, slope, better, error, low, high, rounding = roots
+    coarse = max(width, min(_COARSE, tolerance / 100))
+    evaluations[0] = 0
     for k in range(len(root)):
         root[k] = 0.0
     for level in range(MOST_LEVELS):
@@ -955,19 +1174,14 @@ def solve_levels(
             *(x, m, EI, N, acceleration, mass_left, varies, log, interval, steps, number),
             *(refinement, first, own),
         )
-        for i in range(n):
-            own[0, i], own[1, i] = own[0, i] / L, own[1, i] / m0
-            own[2, i], own[3, i] = own[2, i] / EI0, own[3, i] * (L * L / EI0)
-        for i in range(n + 1):
-            marks[i] = -1
-        for i in range(len(at)):
-            marks[first[at[i]]] = i
-        arrays = (*work[:3], starts[: n + 1], marks[: n + 1], points, *work[6:])
-        warm = level > 0
+        _to_chain(n, L, m0, EI0, own, at, first, marks)
+        arrays = (*work[:3], starts[: n + 1], marks[: n + 1], scaled, *work[6:])
+        warm, last = level > 0, level > 1 or not varying
+        wide = width if last else coarse
         while True:
             reason, more = find_roots(
                 *(own[0, :n], own[1, :n], own[2, :n], own[3, :n], ends, below, warm, root, slope),
-                *(width, low, high, counts, rounding, table, arrays, 0.0),
+                *(wide, last, low, high, counts, rounding, table, arrays, 0.0),
             )
             if reason == TABLE_TOO_SMALL:
                 return reason, more
@@ -982,7 +1196,9 @@ def solve_levels(
             better[k], error[k] = root[k], 0.0
             if level > 0:
                 root[k] += (root[k] - levels[level - 1, k]) / 16
-        if not varying or (level > 1 and _refined(levels, level, tolerance, error, better)):
+        if not varying or (level > 1 and _refined(levels, level, tolerance, coarse, error, better)):
+            unit = EI0 / (m0 * L * L * L * L)
+            _report(unit, better, error, low, high, rounding, omega2, error_omega2, bracket)
             return CERTIFIED, n
         refinement *= 2
     return NOT_CONVERGED, 0
