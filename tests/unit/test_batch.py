@@ -71,6 +71,22 @@ def test_loads_alone_vary(loads):
         assert np.mean(fast.evaluations == 8) > 0.9
 
 
+def test_three_numbers_of_a_large_batch():
+    """Points along each as its coefficients need; the guesses hold, and strangers are solved."""
+    rng, n = np.random.default_rng(3), 20
+    h, m, EI = np.full(n, 0.1), rng.uniform(1, 3, n), rng.uniform(1e3, 3e3, n)
+    courses = np.array([np.linspace(0, 300, n), 40 * np.sin(np.arange(n)), np.full(n, 15.0)])
+    N = rng.uniform(0.2, 1, (8000, 3)) @ courses
+    N[[5, 4000]] *= rng.uniform(0.9, 1.1, n)
+    fast = an.solve_many(an.BeamBatch(h, m, EI, N, modes=4))
+    some = np.array([0, 5, 77, 4000, 7999])
+    full = an.solve_many(an.BeamBatch(h, np.repeat(m[None], len(some), 0), EI, N[some], modes=4))
+    assert not fast.reason.any()
+    assert np.mean(fast.evaluations == 8) > 0.99
+    assert fast.omega2[some] == pytest.approx(full.omega2, rel=1e-11)
+    assert np.array_equal(fast.counts[some], full.counts)
+
+
 def test_a_load_that_is_no_number_touches_no_other():
     one = np.ones(8)
     N = np.linspace(0, 5, 200)[:, None] * one

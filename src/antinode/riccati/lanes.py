@@ -728,7 +728,7 @@ def find_roots(
     """
     samples, asked, owner, starts, marks, points, state, sign, value, before = work[:10]
     stuck, at, own, near, x, y, wanted, requests, certifies = work[10:]
-    total, number = 0, len(root)
+    total, number, exact = 0, len(root), warm and reach > 0.0
     for k in range(number):
         asked[k], owner[k], before[k], stuck[k] = root[k], k, np.inf, 0
         low[k], high[k] = -np.inf, np.inf
@@ -739,7 +739,7 @@ def find_roots(
             owner[k] = -1
         for k in range(len(root)):
             slope[k] = 0.0
-    elif reach > 0.0:
+    elif exact:
         number = 2 * len(root)
         for k in range(len(root)):
             size = _MARGIN * width * abs(root[k])
@@ -788,12 +788,13 @@ def find_roots(
             for k in range(len(root) if certify else 0):
                 root[k] = _between(samples, at[k], root[k])
                 root[k] = min(max(root[k], low[k]), high[k])
-            _slopes(samples, total, root, below, slope, own, near)
+            if not exact:
+                _slopes(samples, total, root, below, slope, own, near)
             if not certify:
                 return CERTIFIED, total
-            force, most, sure = 0.0, 0.0, True
+            force, most, sure = _pull(h, N), 0.0, True
             for i in range(len(h)):
-                force, most = force + abs(N[i]) * h[i], max(most, abs(N[i]))
+                most = max(most, abs(N[i]))
             for k in range(len(root)):
                 rounding[k] = _rounding(samples, at[k], ends[1], force)
                 sure = sure and rounding[k] <= _SURE * width * abs(root[k])
@@ -805,32 +806,37 @@ def find_roots(
 @_compiled
 def _is_valid(h, m, EI, N):
     """Tell whether lengths, masses and stiffnesses are positive, and all is finite."""
-    valid = True
+    valid = 0
     for k in range(len(h)):
-        positive = 0.0 < h[k] < np.inf and 0.0 < m[k] < np.inf and 0.0 < EI[k] < np.inf
-        valid = valid and positive and abs(N[k]) < np.inf
-    return valid
+        valid += 1 if h[k] > 0.0 and h[k] < np.inf and abs(N[k]) < np.inf else 0
+        valid += 1 if m[k] > 0.0 and m[k] < np.inf else 0
+        valid += 1 if EI[k] > 0.0 and EI[k] < np.inf else 0
+    return valid == 3 * len(h)
 
 
-@_compiled
-def _dimensionless(h, m, EI, N, own):
-    """Set own to the chain in units of its length and its mean m and EI; return that of omega^2."""
-    L, m0, EI0, n = 0.0, 0.0, 0.0, len(h)
+@_summing
+def _means(own):
+    """Return the length, the mean m and the mean EI of the rows h, m, EI, N of a chain."""
+    L, m0, EI0, n = 0.0, 0.0, 0.0, own.shape[1]
     for k in range(n):
-        L, m0, EI0 = L + h[k], m0 + m[k] / n, EI0 + EI[k] / n
-    for k in range(n):
-        own[0, k], own[1, k] = h[k] / L, m[k] / m0
-        own[2, k], own[3, k] = EI[k] / EI0, N[k] * (L * L / EI0)
-    return EI0 / (m0 * L * L * L * L)
+        L, m0, EI0 = L + own[0, k], m0 + own[1, k], EI0 + own[2, k]
+    return L, m0 / n, EI0 / n
+
+
+@_summing
+def _pull(h, N):
+    """Return the integral of abs(N)."""
+    total = 0.0
+    for k in range(len(h)):
+        total += abs(N[k]) * h[k]
+    return total
 
 
 @_compiled
 def make_dimensionless(own):
     """Make the rows h, m, EI, N of a chain dimensionless; return length, mean m and mean EI."""
-    L, m0, EI0, n = 0.0, 0.0, 0.0, own.shape[1]
-    for k in range(n):
-        L, m0, EI0 = L + own[0, k], m0 + own[1, k] / n, EI0 + own[2, k] / n
-    for k in range(n):
+    L, m0, EI0 = _means(own)
+    for k in range(own.shape[1]):
         own[0, k], own[1, k] = own[0, k] / L, own[1, k] / m0
         own[2, k], own[3, k] = own[2, k] / EI0, own[3, k] * (L * L / EI0)
     return L, m0, EI0
@@ -876,7 +882,11 @@ def solve_rows(
         if not _is_valid(length[i], mass[b], stiffness[b], force[b]):
             reason[b] = INVALID
             continue
-        unit = _dimensionless(length[i], mass[b], stiffness[b], force[b], own)
+        for k in range(own.shape[1]):
+            own[0, k], own[1, k] = length[i, k], mass[b, k]
+            own[2, k], own[3, k] = stiffness[b, k], force[b, k]
+        L, m0, EI0 = make_dimensionless(own)
+        unit = EI0 / (m0 * L * L * L * L)
         if weights.shape[1]:
             _quotients(weights, mass[b], stiffness[b], force[b], quotient[0])
             if neighbour[0] >= 0:
@@ -911,21 +921,21 @@ def certify_rows(
     unit, pull = EI0 / (m0 * L * L * L * L), L * L / EI0
     starts, marks, reach, n = work[3], work[4], 0.0, own.shape[1]
     for b in range(len(force)):
-        outside, highest, finite = reach == 0.0, 0.0, True
+        outside, highest, finite = 0, 0.0, 0
         for k in range(n):
             N = force[b, k] * pull
             own[3, k] = N
-            outside = outside or abs(N) > most[k]
-            finite = finite and abs(N) < np.inf
+            outside += 1 if abs(N) > most[k] else 0
+            finite += 1 if abs(N) < np.inf else 0
         for k in range(root.shape[1]):
             root[b, k] = guess[b, k] / unit
             highest = max(highest, abs(root[b, k]))
-            finite = finite and abs(root[b, k]) < np.inf
+            finite += 1 if abs(root[b, k]) < np.inf else 0
             slope[k] = 0.0
-        if not finite:
+        if finite < n + root.shape[1]:
             reason[b] = NOT_FINITE
             continue
-        if outside or highest * (1.0 + width) > reach:
+        if outside > 0 or highest * (1.0 + width) > reach:
             reach = 1.2 * highest
             for k in range(n):
                 most[k] = max(most[k], 1.1 * abs(own[3, k]))
