@@ -24,9 +24,10 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.beam import Beam
+from antinode.kernel import shapes_for
 from antinode.loads import Loads, PointForce
 from antinode.riccati.chain import Chain, Family, largest_wave_number
-from antinode.riccati.shapes import mode_states, propagate
+from antinode.riccati.shapes import propagate
 from antinode.vehicle import Interpolation
 
 Array = npt.NDArray[np.float64]
@@ -64,7 +65,9 @@ class Modes:
     @cached_property
     def states(self) -> Array:
         """At the nodes, up to one factor for each mode, shape (n + 1, k, s)."""
-        return mode_states(self.chain, self.omega2, np.ones(len(self.omega2), dtype=np.int64))
+        solver = shapes_for(len(self.chain.length), len(self.omega2))
+        one = np.ones(len(self.omega2), dtype=np.int64)
+        return np.asarray(solver.mode_states(self.chain, self.omega2, one))
 
     @cached_property
     def _rule(self) -> tuple[Array, Array]:
