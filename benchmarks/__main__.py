@@ -146,7 +146,12 @@ def loads():
 def single():
     """One solve in a running process."""
     h, m, EI, N = smooth_case(_rng(), 40)
-    beam, solver = stepped_beam(SEGMENTS), Subspace(SEGMENTS)
+    x, solver = np.linspace(0.0, LENGTH, SEGMENTS + 1), Subspace(SEGMENTS)
+
+    def build(k):
+        return an.Beam.from_stations(x, m[k], EI[k], None, N[k])
+
+    beams = [build(k) for k in range(40)]
     one = _in_turn(lambda k: an.solve_many(an.BeamBatch(h, m[k], EI[k], N[k])))
     exact = np.array([one().omega2[0] for _ in range(40)])
 
@@ -155,15 +160,17 @@ def single():
         check(name, found, exact, 1e-5)
         return _in_turn(lambda k: solve(m[k], EI[k], N[k], MODES))
 
-    alone, ready, shapes, other = medians(
+    alone, built, ready, shapes, other = medians(
         201,
         one,
-        lambda: an.natural_frequencies(beam, MODES),
-        lambda: an.solve_modes(beam, MODES, families=("bending",)),
+        _in_turn(lambda k: an.natural_frequencies(build(k), MODES)),
+        _in_turn(lambda k: an.natural_frequencies(beams[k], MODES)),
+        _in_turn(lambda k: an.solve_modes(beams[k], MODES, families=("bending",))),
         checked("subspace", lambda *case: solver.omega2(h[0], *case)),
     )
     rows = [
         _single_row("frequencies (a batch of one)", alone, "subspace", other),
+        _single_row("frequencies (a Beam built, natural_frequencies)", built, "subspace", other),
         _single_row("frequencies (natural_frequencies of a Beam)", ready, "subspace", other),
         _single_row("with shapes (solve_modes)", shapes, "subspace", other),
     ]
