@@ -19,7 +19,15 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from .attachments import Attachment, Joint, PointMass, check_attachments, gather
+from .attachments import (
+    Attachment,
+    Joint,
+    PointMass,
+    check_attachments,
+    check_supports_apart,
+    gather,
+    held_places,
+)
 from .errors import InputError
 from .riccati.chain import Chain, Family, Integers
 from .riccati.points import Point
@@ -526,12 +534,20 @@ def _check(beam: Beam) -> None:
             _check_table(name, values, n)
     if beam.attachments:
         check_attachments(beam.attachments, beam.x)
+        _check_supports(beam)
     for item in beam.attachments:
         if np.min(np.abs(beam.x - item.x)) > 1e-9 * beam.length:
             raise InputError(
                 f"no breakpoint at x = {item.x:g} m, where something is attached; "
                 "use Beam.with_attachments"
             )
+
+
+def _check_supports(beam: Beam) -> None:
+    """Refuse a support that all but coincides with an end which is held, or with another one."""
+    ends = zip((beam.ends.left, beam.ends.right), beam.x[[0, -1]].tolist(), strict=True)
+    held = [x for end, x in ends if end in ("pinned", "clamped")]
+    check_supports_apart([*held, *held_places(beam.attachments)], beam.x)
 
 
 def _check_table(name: str, values: Array, n: int) -> None:

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .attachments import PointMass, check_supports_apart, held_places
+from .attachments import PointMass
 from .beam import Array, Beam
 from .errors import AntinodeError, ComputationError, InputError
 
@@ -57,7 +57,6 @@ def check_limits(beam: Beam) -> None:
         if values is not None:
             _check_property(name, values)
     _check_point_masses(beam)
-    _check_supports(beam)
     _check_axial_force(beam)
 
 
@@ -70,13 +69,6 @@ def _check_point_masses(beam: Beam) -> None:
                 f"{MOST_POINT_MASS:g} times the beam's: check its unit, or hold the beam there by "
                 "a support"
             )
-
-
-def _check_supports(beam: Beam) -> None:
-    """Refuse a support that all but coincides with an end which is held, or with another one."""
-    ends = zip((beam.ends.left, beam.ends.right), beam.x[[0, -1]].tolist(), strict=True)
-    held = [x for end, x in ends if end in ("pinned", "clamped")]
-    check_supports_apart([*held, *held_places(beam.attachments)], beam.x)
 
 
 def _check_property(name: str, values: Array) -> None:
