@@ -6,6 +6,7 @@ here is imported before someone asks for it.
 
 from __future__ import annotations
 
+import os
 import sys
 import tempfile
 import threading
@@ -18,7 +19,10 @@ import numpy as np
 
 from .riccati import shapes
 
-_LARGE = 100_000  # segments times modes from which loading takes less time than numpy
+_LARGE = 50_000  # segments times modes from which reading the cache takes less time than numpy
+_HUGE = 800_000  # ... and compiling
+_SOURCE = Path(__file__).with_name("riccati") / "lanes.py"
+_OWN_CACHE = Path(tempfile.gettempdir()) / "antinode-numba"
 _ready: list[ModuleType] = []
 _loading = threading.Lock()
 
@@ -33,9 +37,20 @@ def kernel() -> ModuleType:
 
 def kernel_if_worthwhile(segments: int, modes: int) -> ModuleType | None:
     """Return the kernel if it is loaded, or if a solve takes longer without; else None."""
-    if _ready or segments * modes >= _LARGE:
+    size = segments * modes
+    if _ready or size >= _HUGE or (size >= _LARGE and _is_cached()):
         return kernel()
     return None
+
+
+def _is_cached() -> bool:
+    """Tell whether numba has the kernel's code on disk, from its last date of change on."""
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    folders = [Path(chosen)] if chosen else [_SOURCE.parent / "__pycache__", _OWN_CACHE]
+    index = f"{_SOURCE.stem}.find_roots-*.nbi"
+    found = (path for folder in folders for path in folder.rglob(index))
+    changed = _SOURCE.stat().st_mtime
+    return any(path.stat().st_mtime > changed for path in found)
 
 
 def shapes_for(segments: int, modes: int) -> ModuleType:
@@ -90,7 +105,7 @@ def _import_kernel() -> ModuleType:
         from numba import config
 
         settings: Any = config
-        settings.CACHE_DIR = str(Path(tempfile.gettempdir()) / "antinode-numba")
+        settings.CACHE_DIR = str(_OWN_CACHE)
         from .riccati import compiled
     return compiled
 

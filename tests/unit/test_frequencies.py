@@ -127,6 +127,23 @@ def test_a_single_call_loads_no_compiler():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
+@pytest.mark.parametrize("cached", [False, True])
+def test_numba_is_not_waited_for_where_numpy_is_done_sooner(cached, tmp_path):
+    """A large beam loads the kernel from its cache, and does not have it compiled."""
+    code = """
+import sys
+from antinode.kernel import kernel_if_worthwhile
+print(kernel_if_worthwhile(200, 8) is None, kernel_if_worthwhile(10_000, 8) is None)
+"""
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    if cached:
+        fill = [sys.executable, "-c", "from antinode.kernel import kernel; kernel()"]
+        subprocess.run(fill, env=environment, check=True, capture_output=True)
+    command = [sys.executable, "-c", code]
+    told = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
+    assert told.stdout.split() == ["True", str(not cached)]
+
+
 def test_a_cache_folder_where_the_package_is_read_only(monkeypatch, tmp_path):
     """Numba finds no place for its cache: one is made among the temporary files."""
     monkeypatch.setenv("TMPDIR", str(tmp_path))
