@@ -5,7 +5,7 @@ import pytest
 
 from antinode.beam import LIMITS, Beam
 from antinode.riccati import chain as readable
-from antinode.riccati import compiled, lanes
+from antinode.riccati import compiled, lanes, roots
 from antinode.riccati.chain import Chain, omega2_scale
 from antinode.riccati.points import Point
 from antinode.riccati.segment import fundamental
@@ -43,6 +43,54 @@ def random_point(rng, node, inner, M, L, EI):
         compliance=rng.choice([0, 0.1, 3]) * L / EI if inner else 0.0,
         own_load=rng.choice([0, 5]) * EI / L**2 if mass else 0.0,
     )
+
+
+BARS = [(left, right) for left in ("free", "fixed") for right in ("free", "fixed")]
+
+
+def random_bar(rng, ends, points):
+    chain = random_chain(rng, False)
+    n, L = len(chain.length), float(np.sum(chain.length))
+    M, EA = float(chain.mass @ chain.length), float(np.median(chain.stiffness))
+    at = sorted(rng.choice(np.arange(n + 1), size=min(n, 3), replace=False)) if points else []
+    what = tuple(
+        Point(
+            int(node),
+            mass=rng.choice([0, 0.3]) * M,
+            spring=rng.choice([0, 1, 1e4]) * EA / L,
+            compliance=rng.choice([0, 0.1, 3]) * L / EA if 0 < node < n else 0.0,
+        )
+        for node in at
+    )
+    return Chain(*(vars(chain)[k] for k in NUMBERS), *ends, "longitudinal", what)
+
+
+NUMBERS = ("length", "mass", "stiffness", "axial_force")
+
+
+@pytest.mark.parametrize("points", [False, True])
+@pytest.mark.parametrize("ends", BARS)
+def test_longitudinal_chains_agree_with_the_readable_form(ends, points):
+    rng = np.random.default_rng([BARS.index(ends), points])
+    for _ in range(60):
+        bar = random_bar(rng, ends, points)
+        size = omega2_scale(bar)
+        omega2 = size * np.concatenate(
+            [10 ** rng.uniform(-2, 4, 11), -(10 ** rng.uniform(-2, 3, 6))]
+        )
+        fast, slow = compiled.evaluate(bar, omega2), readable.evaluate(bar, omega2)
+        assert fast.below.tolist() == slow.below.tolist()
+        assert np.sign(fast.characteristic).tolist() == np.sign(slow.characteristic).tolist()
+        held = ends != ("free", "free") or any(p.spring for p in bar.points)
+        found, expected = (
+            how.find_eigenvalues(bar, 7, zeros=0 if held else 1) for how in (compiled, roots)
+        )
+        if found is None:
+            continue
+        assert [v.index for v in found] == [v.index for v in expected]
+        for mine, theirs in zip(found, expected, strict=True):
+            assert mine.counts == theirs.counts
+            assert mine.omega2 == pytest.approx(theirs.omega2, rel=1e-10, abs=1e-12 * size)
 
 
 @pytest.mark.parametrize("points", [False, True])

@@ -47,7 +47,7 @@ def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
     Parameters
     ----------
     chain : Chain
-        Of the bending family; supports at its two ends belong into `left` and `right`.
+        Supports at its two ends belong into `left` and `right`; one that needs frames gets them.
     omega2 : array_like, shape (k,)
         [rad^2/s^2], any sign.
 
@@ -57,39 +57,13 @@ def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
         The characteristic function is scaled to the last minors of each omega^2: bounded by 1.
     """
     asked = np.atleast_1d(np.asarray(omega2, dtype=float))
-    n = len(chain.length)
-    if chain.family != "bending" or any(p.holds and p.node in (0, n) for p in chain.points):
-        return evaluate_readable(chain, asked)
-    L, EI0, m0 = _units(chain)
-    marks, points = _point_table(chain, L, EI0, m0)
-    own = chain.length / L, chain.mass / m0, chain.stiffness / EI0, chain.axial_force * L * L / EI0
-    scaled, starts = asked * (m0 * L**4 / EI0), np.empty(n + 1, np.int64)
-    pieces = lanes.count_pieces(*own, np.max(np.abs(scaled)), starts)
-    if pieces < 0:
-        worst = float(np.max(np.abs(asked)))
-        raise FloatingPointError(f"omega^2 = {worst:g} rad^2/s^2 is out of reach for this chain")
-    table = np.empty((lanes.ROWS, pieces))
-    lanes.fill_table(*own, starts, marks, table)
-    count, value = np.empty(len(asked), np.int64), np.empty(len(asked))
-    lanes.evaluate_lanes(
-        *(table, starts, marks, points, ENDS[chain.left], ENDS[chain.right], scaled),
-        *(np.zeros(8 * LANES), np.zeros(LANES), np.zeros(LANES), count, value),
-    )
-    return Evaluation(count, value)
+    return evaluate_readable(chain, asked) if _needs_frames(chain) else SingleChain(chain)(asked)
 
 
-def _units(chain: Chain) -> tuple[float, float, float]:
-    """Return length [m], EI [N m^2] and mass per length [kg/m] that make a chain dimensionless."""
-    L = float(np.sum(chain.length))
-    return L, *chain.reference
-
-
-def _point_table(chain: Chain, L: float, EI0: float, m0: float) -> tuple[Integers, Array]:
-    """Return which point sits at every node (-1: none), and the points' dimensionless numbers."""
-    marks = np.full(len(chain.length) + 1, -1)
-    for k, point in enumerate(chain.points):
-        marks[point.node] = k
-    return marks, _point_rows(chain.points, L, EI0, m0)
+def _needs_frames(chain: Chain) -> bool:
+    """Tell whether supports stand where the compiled chain does not know them."""
+    known = range(1, len(chain.length)) if chain.family == "bending" else ()
+    return any(point.holds and point.node not in known for point in chain.points)
 
 
 def _point_rows(points: Sequence[Point], L: float, EI0: float, m0: float) -> Array:
@@ -103,6 +77,14 @@ def _point_rows(points: Sequence[Point], L: float, EI0: float, m0: float) -> Arr
             *(p.spring * L**3 / EI0, turning * L / EI0),
             *(float(0 in p.holds), float(1 in p.holds), p.compliance * EI0 / L),
         )
+    return table
+
+
+def _bar_point_rows(points: Sequence[Point], L: float, EA0: float, m0: float) -> Array:
+    """Return the same of a longitudinal chain."""
+    table = np.zeros((len(points), 8))
+    for k, p in enumerate(points):
+        table[k, [0, 3, 7]] = p.mass / (m0 * L), p.spring * L / EA0, p.compliance * EA0 / L
     return table
 
 
@@ -335,37 +317,45 @@ class SingleChain:
     Parameters
     ----------
     chain : Chain
-        Of the bending family, without supports in `points` at its two ends.
+        Without supports that need frames.
     """
 
     def __init__(self, chain: Chain) -> None:
+        bar = chain.family == "longitudinal"
         own = np.empty((4, len(chain.length)))
-        own[0], own[1] = chain.length, chain.mass
-        own[2], own[3] = chain.stiffness, chain.axial_force
-        L, m0, EI0 = lanes.make_dimensionless(own)
-        self.own, self.unit = own, EI0 / (m0 * L**4)
-        self.left, self.right = ENDS[chain.left], ENDS[chain.right]
+        own[0], own[1], own[2] = chain.length, chain.mass, chain.stiffness
+        own[3] = 0.0 if bar else chain.axial_force
+        L, m0, stiffness = lanes.make_dimensionless(own)
+        self.own, self.unit = own, stiffness / (m0 * L ** (2 if bar else 4))
+        names = lanes.BAR_ENDS if bar else ENDS
+        self.ends = np.array([names[chain.left], names[chain.right]])
         self.points: tuple[Integers, Array] | None = None
         if chain.points:
-            self.points = _point_table(chain, L, EI0, m0)
+            marks = np.full(len(chain.length) + 1, -1)
+            marks[[point.node for point in chain.points]] = np.arange(len(chain.points))
+            rows = _bar_point_rows if bar else _point_rows
+            self.points = marks, rows(chain.points, L, stiffness, m0)
 
     def _work(self, roots: int) -> tuple[Any, ...]:
         work = _scratch.work(self.own.shape[1], roots)
         return work if self.points is None else (*work[:4], *self.points, *work[6:])
 
-    def count(self, omega2: Array) -> Integers:
-        """Return how many eigenvalues lie below each omega^2 [rad^2/s^2]."""
-        scaled, work = omega2 / self.unit, self._work(1)
-        pieces = lanes.count_pieces(*self.own, float(np.max(np.abs(scaled))), work[3])
+    def __call__(self, omega2: Array) -> Evaluation:
+        """Evaluate the chain at every omega^2 [rad^2/s^2]."""
+        scaled, work, columns = omega2 / self.unit, self._work(1), self.own.shape[1]
+        largest = float(np.max(np.abs(scaled)))
+        while True:
+            table = _scratch.table(columns)
+            pieces = lanes.prepare(*self.own, self.ends, largest, work[3], work[4], table)
+            if pieces <= table.shape[1]:
+                break
+            columns = pieces
         if pieces < 0:
-            raise FloatingPointError("omega^2 is out of reach for this chain")
-        table = _scratch.table(pieces)
-        lanes.fill_table(*self.own, work[3], work[4], table)
+            worst = float(np.max(np.abs(omega2)))
+            raise FloatingPointError(f"omega^2 = {worst:g} is out of reach for this chain")
         count, value = np.empty(len(scaled), np.int64), np.empty(len(scaled))
-        lanes.evaluate_lanes(
-            table, *work[3:6], self.left, self.right, scaled, *work[6:9], count, value
-        )
-        return count
+        lanes.evaluate_lanes(table, *work[3:6], self.ends, scaled, *work[6:9], count, value)
+        return Evaluation(count, value)
 
     def roots(self, below: int, number: int, width: float) -> Roots:
         """Bracket and certify eigenvalues below + 1 ... below + number.
@@ -375,13 +365,13 @@ class SingleChain:
         width : float
             Relative width of the brackets in omega^2.
         """
-        work, ends = self._work(number), np.array([self.left, self.right])
+        work = self._work(number)
         values, counts = np.zeros((5, number)), np.zeros((number, 2), np.int64)
         root, slope, low, high, rounding = values
         columns = self.own.shape[1] + 8
         while True:
             reason, total = lanes.find_roots(
-                *(*self.own, ends, below, False, root, slope, width, True, low, high),
+                *(*self.own, self.ends, below, False, root, slope, width, True, low, high),
                 *(counts, rounding, _scratch.table(columns), work, 0.0),
             )
             if reason != TABLE_TOO_SMALL:
@@ -447,11 +437,10 @@ def find_eigenvalues(
 ) -> list[Eigenvalue] | None:
     """Return the lowest eigenvalues of a chain as `riccati.roots.find_eigenvalues` does.
 
-    None where determinants do not do: longitudinally, at springs or supports of the ends, and
-    for modes that nearly coincide; the frames do there.
+    None where determinants do not do: at some supports, and for modes that nearly coincide; the
+    frames do there.
     """
-    n = len(chain.length)
-    if chain.family != "bending" or any(p.holds and p.node in (0, n) for p in chain.points):
+    if _needs_frames(chain):
         return None
     ready = SingleChain(chain)
     floor = _floor(ready, omega2_scale(chain), zeros)
@@ -476,7 +465,7 @@ def find_eigenvalues(
 def _floor(ready: SingleChain, scale: float, zeros: int) -> tuple[float, int] | None:
     """Return the least distance from zero at which the counts make sense, and the lower count."""
     floors = scale * 10.0 ** np.arange(-16, -12)
-    count = ready.count(np.concatenate([-floors, floors]))
+    count = ready(np.concatenate([-floors, floors])).below
     if not zeros:
         return (0.0, int(count[4])) if count[0] == count[4] else None
     for floor, low, high in zip(floors, count[:4], count[4:], strict=True):

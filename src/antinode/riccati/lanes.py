@@ -1,6 +1,6 @@
-r"""The bending chain in compiled code: eight omega^2 side by side, counts and roots certified.
+r"""Chains in compiled code: eight omega^2 side by side, counts and roots certified.
 
-What the Riccati form carries as a frame (`riccati.chain`) travels here as its 2 x 2 minors,
+What the Riccati form carries as a frame (`riccati.chain`) travels in bending as its 2 x 2 minors,
 ``a = Y^theta, b = Y^M, e = Y^Q = theta^M, d = theta^Q, f = M^Q`` (x^y: the minor of those rows).
 They determine the plane, ``K = P S = [[d, -e], [-e, b]] / a``, obey a linear equation,
 
@@ -37,6 +37,9 @@ Array = npt.NDArray[np.float64]
 
 LANES = 8
 ENDS = {"free": 0, "clamped": 1, "pinned": 2, "sliding": 3}
+BAR_ENDS = {"free": 4, "fixed": 5}
+BAR_FREE, BAR_FIXED = 4, 5
+"""Of longitudinal chains: 4 and more tell find_roots that it has one."""
 
 _STEP = 0.6  # wave number times length of a piece, at most: four terms in c reach rounding
 _IN_C, _IN_N = 4, 9  # terms of the series in c and in n
@@ -101,7 +104,7 @@ def _all_short(h, m, EI, N, omega2):
 
 @_compiled
 def count_pieces(h, m, EI, N, omega2, starts):
-    """Set the first piece of every segment; return how many pieces reach up to |omega2|."""
+    """Set the first piece of every segment; return how many pieces reach up to abs(omega2)."""
     if _all_short(h, m, EI, N, omega2):
         for k in range(len(h) + 1):
             starts[k] = k
@@ -381,15 +384,153 @@ def _sweep(table, starts, marks, points, left, right, state, sign, value):
     _finish(state, right, value)
 
 
+# --- longitudinal chains ----------------------------------------------------------------------
+# X' = -Q/EA, Q' = m omega^2 X; in units of the piece q = Q h/EA and c = m omega^2 h^2/EA:
+# X <- C X - S q, q <- C q + c S X with C = cos(sqrt c), S = sin(sqrt c)/sqrt c, as series. The
+# state has X where bending has a, and q where it has b; the table the rows 17, 18, 22 and 23.
+
+_BAR_TERMS = 8  # of the series: sqrt(c) is at most _STEP
+_COSINE = tuple((-1.0) ** k / math.factorial(2 * k) for k in range(_BAR_TERMS))
+_SINE = tuple((-1.0) ** k / math.factorial(2 * k + 1) for k in range(_BAR_TERMS))
+
+
 @_compiled
-def evaluate_lanes(
-    table, starts, marks, points, left, right, omega2, state, sign, found, count, value
-):
+def count_bar_pieces(h, m, EA, omega2, starts):
+    """Set the first piece of every segment; return how many pieces reach up to abs(omega2)."""
+    total = 0
+    for k in range(len(h)):
+        starts[k] = total
+        wave = math.sqrt(m[k] * omega2 / EA[k]) * h[k] / _STEP
+        if not wave < _HUGE:
+            return -1
+        total += max(1, math.ceil(wave))
+    starts[len(h)] = total
+    return total if total < _HUGE else -1
+
+
+@_compiled
+def fill_bar_table(h, m, EA, starts, marks, table):
+    """Fill the table: one column a piece."""
+    previous = 1.0
+    for k in range(len(h)):
+        pieces = starts[k + 1] - starts[k]
+        size, f = h[k] / pieces, 1.0 / EA[k]
+        if marks[k] >= 0 or k == 0:
+            previous = 1.0
+        for i in range(starts[k], starts[k + 1]):
+            table[17, i], table[18, i] = m[k] * size * size * f, size * f / previous
+            table[22, i], table[23, i] = size, f
+            previous = size * f
+
+
+@_compiled
+def _advance_bar(table, state, first, last):
+    """Carry the lanes through pieces, and count the changes of sign of X."""
+    _wide_vectors()
+    c0, c1, c2, c3, c4, c5, c6, c7 = _COSINE
+    s0, s1, s2, s3, s4, s5, s6, s7 = _SINE
+    for i in range(first, last):
+        inertia, ratio = table[17, i], table[18, i]
+        for lane in range(LANES):
+            c = state[48 + lane] * inertia
+            C = c0 + c * (c1 + c * (c2 + c * (c3 + c * (c4 + c * (c5 + c * (c6 + c * c7))))))
+            S = s0 + c * (s1 + c * (s2 + c * (s3 + c * (s4 + c * (s5 + c * (s6 + c * s7))))))
+            X, q = state[lane], state[8 + lane] * ratio
+            following = C * X - S * q
+            state[lane], state[8 + lane] = following, C * q + c * S * X
+            state[40 + lane] += 1.0 if X * following < 0.0 else 0.0
+
+
+@_compiled
+def _stretch_bar(table, state, first, last, sign):
+    """Carry the lanes from one point to the next; at a fixed end `sign` is compared."""
+    if first == last:
+        return
+    if sign[0] != 0.0:
+        _advance_bar(table, state, first, first + 1)
+        for lane in range(LANES):
+            state[40 + lane] += 1.0 if sign[lane] * state[lane] < 0.0 else 0.0
+            sign[lane] = 0.0
+        first += 1
+    while last - first > _RESCALE:
+        _advance_bar(table, state, first, first + _RESCALE)
+        _rescale(state)
+        first += _RESCALE
+    _advance_bar(table, state, first, last)
+    for lane in range(LANES):
+        state[8 + lane] /= table[22, last - 1] * table[23, last - 1]
+
+
+@_compiled
+def _pass_bar_point(point, state):
+    """Apply mass and spring, and then the joint, of a node."""
+    for lane in range(LANES):
+        X = state[lane]
+        Q = state[8 + lane] + (state[48 + lane] * point[0] - point[3]) * X
+        following = X - point[7] * Q
+        state[40 + lane] += 1.0 if X * following < 0.0 else 0.0
+        state[lane], state[8 + lane] = following, Q
+
+
+@_compiled
+def _sweep_bar(table, starts, marks, points, left, right, state, sign, value):
+    """Pass a longitudinal chain from left to right."""
+    fixed = left == BAR_FIXED
+    for k in range(48):
+        state[k] = 0.0
+    for lane in range(LANES):
+        state[lane], state[8 + lane] = (0.0, 1.0) if fixed else (1.0, 0.0)
+        state[56 + lane], sign[lane] = 0.0, -1.0 if fixed else 0.0
+    first, n = 0, len(starts) - 1
+    for node in range(n if len(points) == 0 else 0, n + 1):
+        if marks[node] < 0 and node < n:
+            continue
+        _stretch_bar(table, state, first, starts[node], sign)
+        first = starts[node]
+        if marks[node] >= 0:
+            _pass_bar_point(points[marks[node]], state)
+    _rescale(state)
+    for lane in range(LANES):
+        X, Q = state[lane], state[8 + lane]
+        value[lane] = X if right == BAR_FIXED else Q
+        state[40 + lane] += 1.0 if right != BAR_FIXED and Q * X > 0.0 else 0.0
+
+
+# --- either family ------------------------------------------------------------------------------
+
+
+@_compiled
+def prepare(h, m, EI, N, ends, omega2, starts, marks, table):
+    """Fill the table for all up to abs(omega2); return the pieces, which may be more than fit."""
+    bar = ends[0] >= BAR_FREE
+    if bar:
+        pieces = count_bar_pieces(h, m, EI, omega2, starts)
+    else:
+        pieces = count_pieces(h, m, EI, N, omega2, starts)
+    if 0 <= pieces <= table.shape[1]:
+        if bar:
+            fill_bar_table(h, m, EI, starts, marks, table)
+        else:
+            fill_table(h, m, EI, N, starts, marks, table)
+    return pieces
+
+
+@_compiled
+def _pass(table, starts, marks, points, ends, state, sign, value):
+    """Pass a chain of either family from left to right."""
+    if ends[0] >= BAR_FREE:
+        _sweep_bar(table, starts, marks, points, ends[0], ends[1], state, sign, value)
+    else:
+        _sweep(table, starts, marks, points, ends[0], ends[1], state, sign, value)
+
+
+@_compiled
+def evaluate_lanes(table, starts, marks, points, ends, omega2, state, sign, found, count, value):
     """Evaluate a chain at any number of omega^2."""
     for first in range(0, len(omega2), LANES):
         for lane in range(LANES):
             state[48 + lane] = omega2[min(first + lane, len(omega2) - 1)]
-        _sweep(table, starts, marks, points, left, right, state, sign, found)
+        _pass(table, starts, marks, points, ends, state, sign, found)
         for lane in range(min(LANES, len(omega2) - first)):
             count[first + lane] = int(state[40 + lane])
             value[first + lane] = found[lane]
@@ -430,6 +571,18 @@ def _first_samples(h, m, EI, N, number, samples):
     for i in range(number):
         square = ((0.25 + 0.5 * i) * math.pi / phase) ** 2
         samples[i] = max(square * (square - load / phase), 0.01 * square * square)
+    samples[number] = -1.0
+    return number + 1
+
+
+@_compiled
+def _first_bar_samples(h, m, EA, number, samples):
+    """Set samples between the roots that a slowly varying bar would have, and one below 0."""
+    phase = 0.0
+    for k in range(len(h)):
+        phase += h[k] * math.sqrt(m[k] / EA[k])
+    for i in range(number):
+        samples[i] = ((0.25 + 0.5 * i) * math.pi / phase) ** 2
     samples[number] = -1.0
     return number + 1
 
@@ -680,6 +833,12 @@ def _rounding(samples, at, right, force):
     """
     low, high = at
     width = samples[high, 0] - samples[low, 0]
+    if right >= BAR_FREE:
+        scale = 1.0 / math.sqrt(abs(samples[low, 0]) + 1.0)
+        size = max(abs(samples[low, 4]), abs(samples[low, 5]) * scale)
+        other = _shifted(samples[high, 2], samples[high, 3] - samples[low, 3])
+        rise = (abs(samples[low, 2]) + abs(other)) * (1.0 if right == BAR_FIXED else scale)
+        return _EPSILON * size * width / rise if rise > 0.0 else np.inf
     scale = 1.0 / math.sqrt(math.sqrt(abs(samples[low, 0]) + force * force + 1.0))
     units = (1.0, scale, scale**2 / 2, scale**3 / 2, scale**4 / 2)
     size = 0.0
@@ -734,7 +893,11 @@ def find_roots(
         low[k], high[k] = -np.inf, np.inf
         own[k, 0] = own[k, 1] = own[k, 2] = own[k, 3] = -1
     if not warm:
-        number = _first_samples(h, m, EI, N, 2 * (max(below - 2, 0) + number) + 3, asked)
+        number = 2 * (max(below - 2, 0) + number) + 3
+        if ends[0] >= BAR_FREE:
+            number = _first_bar_samples(h, m, EI, number, asked)
+        else:
+            number = _first_samples(h, m, EI, N, number, asked)
         for k in range(number):
             owner[k] = -1
         for k in range(len(root)):
@@ -758,16 +921,15 @@ def find_roots(
             largest = max(largest, abs(asked[k]))
         if largest > reach:
             reach = 1.2 * largest
-            pieces = count_pieces(h, m, EI, N, reach, starts)
+            pieces = prepare(h, m, EI, N, ends, reach, starts, marks, table)
             if pieces < 0:
                 return OUT_OF_REACH, total
             if pieces > table.shape[1]:
                 return TABLE_TOO_SMALL, pieces
-            fill_table(h, m, EI, N, starts, marks, table)
         for first in range(0, number, LANES):
             for lane in range(LANES):
                 state[48 + lane] = asked[min(first + lane, number - 1)]
-            _sweep(table, starts, marks, points, ends[0], ends[1], state, sign, value)
+            _pass(table, starts, marks, points, ends, state, sign, value)
             for lane in range(min(LANES, number - first)):
                 if not math.isfinite(value[lane]):
                     return NOT_FINITE, total
