@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from antinode.riccati import compiled, shapes
+from antinode.kernel import kernel
+from antinode.riccati import compiled, lane_shapes, shapes
 from antinode.riccati.chain import Chain
 from antinode.riccati.points import Point
 from antinode.riccati.roots import find_eigenvalues
@@ -84,6 +85,20 @@ def test_a_mode_at_one_end_of_a_long_chain():
     same_up_to_sign(states, shapes.mode_states(chain, omega2, one))
     energies = compiled.mode_energies(chain, states, omega2)
     assert energies.stiffness / energies.mass == pytest.approx(omega2, rel=1e-9)
+
+
+def test_no_layout_of_arrays_is_compiled_again():
+    """More modes than lanes, read-only and strided tables: what is compiled stays as it is."""
+    kernel()
+    numbers = [len(f.signatures) for f in (lane_shapes.squares, lane_shapes.scaled_chain)]
+    h, m, EI, N = np.broadcast_to(np.array([0.1, 1.0, 2.0, 0.3])[:, None], (4, 10))
+    chain = Chain(h, m, EI, np.repeat(N, 2)[::2])
+    omega2 = np.array([v.omega2 for v in find_eigenvalues(chain, 14, zeros=1)[2:]])
+    states = compiled.mode_states(chain, omega2, np.ones(len(omega2), np.int64))
+    states.flags.writeable = False
+    compiled.mode_energies(chain, states, omega2)
+    after = [len(f.signatures) for f in (lane_shapes.squares, lane_shapes.scaled_chain)]
+    assert after == numbers
 
 
 def test_supports_and_clusters_are_left_to_the_readable_form():

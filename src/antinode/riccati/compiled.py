@@ -501,16 +501,18 @@ def _is_special(chain: Chain, multiplicity: Integers) -> bool:
 
 
 class _LaneChain:
-    """A chain in the units of up to eight modes."""
+    """A chain in the units of up to eight modes; arrays are copied into the layout compiled for."""
 
     def __init__(self, chain: Chain, omega2: Array) -> None:
         n, number = len(chain.length), len(omega2)
         lane = np.minimum(np.arange(LANES), number - 1)
-        self.length, self.scale = chain.length, chain.scale_length(omega2)[lane]
+        self.scale = chain.scale_length(omega2)[lane]
+        arrays = chain.length, chain.mass, chain.stiffness, chain.axial_force
+        self.length, mass, stiffness, force = (np.array(values, order="C") for values in arrays)
         self.units = state_units(chain, omega2)[lane]
         self.EI, self.N, self.inertia = np.empty(n), np.empty((n, LANES)), np.empty((n, LANES))
         lane_shapes.scaled_chain(
-            *(chain.mass, chain.stiffness, chain.axial_force, omega2[lane], self.scale),
+            *(mass, stiffness, force, omega2[lane], self.scale),
             *(chain.reference[0], self.EI, self.N, self.inertia),
         )
         self.scratch = np.zeros((lane_shapes.SCRATCH, LANES))
@@ -560,15 +562,17 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies
     if chain.family != "bending" or phase > LONGEST_STEP:
         return shapes.mode_energies(chain, states, omega2)
     share, weight = shapes.gauss_rule(phase)
-    total = np.zeros((4, len(chain.length), len(omega2)))
+    parts = []
     for i in range(0, len(omega2), LANES):
         own = _LaneChain(chain, omega2[i : i + LANES])
+        these = np.array(states[:, i : i + LANES], order="C")
+        total = np.zeros((4, *these[:-1, :, 0].shape))
         lane_shapes.squares(
             *(own.length, own.EI, own.N, own.inertia, own.scale, own.units),
-            *(np.ascontiguousarray(states[:, i : i + LANES]), share, weight, own.scratch),
-            total[:, :, i : i + LANES],
+            *(these, share, weight, own.scratch, total),
         )
-    return shapes.energies(chain, states, shapes.Squares(*total))
+        parts.append(total)
+    return shapes.energies(chain, states, shapes.Squares(*np.concatenate(parts, axis=2)))
 
 
 def compiled_here() -> bool:
