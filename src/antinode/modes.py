@@ -326,11 +326,13 @@ def _modes_of(
     scale = _normalising_factors(states, energies.mass, normalisation)
     states = states * scale[:, None]
     at_grid = _on_grid(chain, states, omega2, grid - grid[0])
-    rows = []
-    for column, k in enumerate(keep):
-        one = energies.of_mode(column, float(scale[column]))
-        name, number = names[k]
-        rows.append(_mode(beam, chain, solved, k, name, number, at_grid[:, column], one))
+    energies = energies.scaled(scale)
+    model_errors = _model_errors(beam, chain, omega2, energies)
+    quadratic = np.transpose(energies[1:]).tolist()
+    rows = [
+        _mode(solved, k, names[k], at_grid[:, column], quadratic[column], model_errors[column])
+        for column, k in enumerate(keep)
+    ]
     return _with_joint_brackets(rows), Solution(chain, omega2, states)
 
 
@@ -431,24 +433,22 @@ def _first_extremum_signs(Y: Array, largest: Array) -> Array:
 
 
 def _mode(
-    beam: Beam,
-    chain: Chain,
     solved: _Solved,
     k: int,
-    name: str,
-    number: int,
+    named: tuple[str, int],
     shape: Array,
-    energy: Energies,
+    quadratic: list[float],
+    model_error: float | None,
 ) -> Mode:
-    value, family = solved.eigenvalues[k], chain.family
-    mass, stiffness, size = (float(v[0]) for v in (energy.mass, energy.stiffness, energy.size))
+    value, family = solved.eigenvalues[k], solved.chain.family
+    (name, number), (mass, stiffness, size) = named, quadratic
     exact = value.omega2 == 0.0 and number == 0
     rounding = 0.0 if exact else _ROUNDING * size / mass
     low, high = value.bracket[0] - rounding, value.bracket[1] + rounding
     half = max(value.omega2 - low, high - value.omega2)
     error = 0.0 if exact else half + float(solved.discretisation[k])
     quotient = stiffness / mass
-    reference = max(abs(value.omega2), 1e-9 * omega2_scale(chain))
+    reference = max(abs(value.omega2), 1e-9 * omega2_scale(solved.chain))
     kind: Kind = "divergent" if value.omega2 < 0 else "elastic" if number else "rigid"
     return Mode(
         family=family,
@@ -461,7 +461,7 @@ def _mode(
         error_omega2=error,
         modal_mass=mass,
         residual=0.0 if exact else abs(quotient - value.omega2) / reference,
-        model_error=_model_error(beam, chain, value.omega2, energy) if number else None,
+        model_error=model_error if number else None,
         states=shape,
     )
 
@@ -484,14 +484,16 @@ def _sharing(group: list[Mode]) -> list[Mode]:
     return [replace(mode, bracket_omega2=bracket, counts=counts) for mode in group]
 
 
-def _model_error(beam: Beam, chain: Chain, omega2: float, energy: Energies) -> float | None:
-    """Return the first-order effect of rotary inertia and shear on a frequency, relative.
+def _model_errors(
+    beam: Beam, chain: Chain, omega2: Array, energies: Energies
+) -> list[float | None]:
+    """Return the first-order effect of rotary inertia and shear on each frequency, relative.
 
     ``-1/2 [int m r^2 theta^2 + int M'^2/(kGA) / omega^2] / int m Y^2``, with the shear stiffness
     kGA = EA / (4 (1 + nu)) of a thin-walled tube, nu = 0.3.
     """
-    if chain.family != "bending" or omega2 <= 0 or beam.axial_stiffness is None:
-        return None
+    if chain.family != "bending" or beam.axial_stiffness is None:
+        return [None] * len(omega2)
     middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2 + beam.x[0]
     k = np.clip(np.searchsorted(beam.x, middle) - 1, 0, len(beam.x) - 2)
     t = (middle - beam.x[k]) / np.diff(beam.x)[k]
@@ -501,9 +503,11 @@ def _model_error(beam: Beam, chain: Chain, omega2: float, energy: Energies) -> f
     else:
         r2 = chain.stiffness / EA
     kGA = EA / (4 * 1.3)
-    rotary = float((chain.mass * r2) @ energy.squares.slope[:, 0])
-    shear = float(np.sum(energy.squares.shear[:, 0] / kGA)) / omega2
-    return -(rotary + shear) / float(energy.mass[0]) / 2
+    vibrates = omega2 > 0
+    rotary = (chain.mass * r2) @ energies.squares.slope
+    shear = (1 / kGA) @ energies.squares.shear / np.where(vibrates, omega2, 1.0)
+    errors = (-(rotary + shear) / energies.mass / 2).tolist()
+    return [e if known else None for e, known in zip(errors, vibrates.tolist(), strict=True)]
 
 
 def _compare_unloaded(beam: Beam, found: list[Mode], modes: int, tolerance: float) -> list[Mode]:

@@ -270,11 +270,11 @@ class Energies(NamedTuple):
     size: Array
     """The same with every term taken positive: how much cancels in the stiffness."""
 
-    def of_mode(self, column: int, scale: float) -> Energies:
-        """Return those of one mode, scaled by a factor on its shape."""
-        one = slice(column, column + 1)
-        squares = Squares(*(part[:, one] * scale**2 for part in self.squares))
-        return Energies(squares, *(part[one] * scale**2 for part in self[1:]))
+    def scaled(self, scale: Array) -> Energies:
+        """Return those of the modes with a factor on each shape, shape (modes,)."""
+        square = scale**2
+        squares = Squares(*(part * square for part in self.squares))
+        return Energies(squares, *(part * square for part in self[1:]))
 
 
 def mode_energies(chain: Chain, states: Array, omega2: Array) -> Energies:
