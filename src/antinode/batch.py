@@ -21,7 +21,7 @@ from .kernel import kernel as compiled_kernel
 from .riccati.chain import Chain
 from .riccati.loads import guess_omega2
 from .riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
-from .riccati.shapes import mode_energies, mode_states
+from .riccati.shapes import split_for
 
 Array = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
@@ -39,7 +39,7 @@ REASONS = (
 
 _WIDTH = 0.98e-10  # of a bracket before its rounding, relative in omega^2
 _ROUNDING = 64 * np.finfo(float).eps
-_NOT_BRACKETED, _CLUSTERED, _PAST_BUCKLING = 2, 5, 6
+_NOT_BRACKETED, _NOT_FINITE, _CLUSTERED, _PAST_BUCKLING = 2, 3, 5, 6
 _ALONE = _NOT_BRACKETED, _CLUSTERED
 _FREE = Ends()
 
@@ -183,6 +183,10 @@ def solve_many(batch: BeamBatch) -> BatchResult:
     omega2, low, high, rounding = np.zeros((4, beams, modes))
     counts = np.zeros((beams, modes, 2), dtype=np.int64)
     reason, evaluations = _solve(kernel, batch, (omega2, low, high, counts, rounding))
+    if _translates(batch.ends):  # past buckling its omega^2 = 0 lies above an elastic mode
+        reason[(reason == 0) & (omega2[:, 0] < 0)] = _NOT_BRACKETED
+    if not np.isfinite(high).all():
+        reason[(reason == 0) & ~np.isfinite(high).all(axis=1)] = _NOT_FINITE
     if reason.any():
         for row in np.flatnonzero(np.isin(reason, _ALONE)):
             reason[row] = _alone(kernel, batch, int(row), (omega2, low, high, rounding), counts)
@@ -261,8 +265,7 @@ def _alone(
     h = batch.length[row if len(batch.length) > 1 else 0]
     m, EI, N = (getattr(batch, name)[row] for name in _ARRAYS[1:])
     chain = Chain(h, m, EI, N, batch.ends.left, batch.ends.right)
-    translates = not {batch.ends.left, batch.ends.right} & {"clamped", "pinned"}
-    zeros = below if not np.any(N) else int(translates)
+    zeros = below if not np.any(N) else int(_translates(batch.ends))
     try:
         found = kernel.find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
         if found is None or not check_certificate(found):
@@ -272,7 +275,7 @@ def _alone(
         others = [value for value in found if value.omega2 != 0.0]
         moved = below - (len(found) - len(others))  # the rigid modes that N moves off zero
         wanted = others[moved : moved + batch.modes]
-        rounding = _rounding_by_shapes(chain, wanted)
+        rounding = _rounding_by_shapes(kernel, chain, wanted)
     except (CountingError, ArithmeticError):
         return _NOT_BRACKETED
     columns = [v.omega2 for v in wanted], *zip(*(v.bracket for v in wanted), strict=True), rounding
@@ -282,11 +285,16 @@ def _alone(
     return 0
 
 
-def _rounding_by_shapes(chain: Chain, found: list[Eigenvalue]) -> Array:
+def _translates(ends: Ends) -> bool:
+    return not {ends.left, ends.right} & {"clamped", "pinned"}
+
+
+def _rounding_by_shapes(kernel: Any, chain: Chain, found: list[Eigenvalue]) -> Array:
     """Return the rounding of omega^2 [rad^2/s^2]: small against the energies that make it."""
     omega2 = np.array([value.omega2 for value in found])
     together = np.array([sum(other.bracket == v.bracket for other in found) for v in found])
-    energies = mode_energies(chain, mode_states(chain, omega2, together), omega2)
+    fine = split_for(chain, omega2)
+    energies = kernel.mode_energies(fine, kernel.mode_states(fine, omega2, together), omega2)
     return np.asarray(_ROUNDING * energies.size / energies.mass)
 
 

@@ -131,6 +131,12 @@ class Beam:
     def __post_init__(self) -> None:
         if not len(self.axial_force):
             object.__setattr__(self, "axial_force", np.zeros((len(self.x) - 1, 2)))
+        for name in ("x", *_TABLES):
+            values = getattr(self, name)
+            if values is not None:
+                own = np.array(values, dtype=float)
+                own.flags.writeable = False
+                object.__setattr__(self, name, own)
         _check(self)
 
     @classmethod

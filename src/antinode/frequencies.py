@@ -42,7 +42,8 @@ class Frequencies:
     omega2 : array, shape (modes,)
         [rad^2/s^2]; negative past buckling.
     error_omega2 : array, shape (modes,)
-        Bound on the distance to the eigenvalue of the beam as given [rad^2/s^2].
+        Distance to the eigenvalue of the beam as given [rad^2/s^2]: that to the bracket's end,
+        which is certain, and the estimated error of representing what varies by uniform segments.
     bracket_omega2 : array, shape (modes, 2)
         Encloses the eigenvalue of the finest segment chain, rounding included [rad^2/s^2].
     counts : array of int, shape (modes, 2)
@@ -134,9 +135,11 @@ def _by_kernel(
         *(mass_left, beam.interpolation == "log", LIMITS, *held),
     )
     refinement = max(1, (modes + rigid) // _MODES_PER_REFINEMENT)
-    found = compiled.solve_beam(tables, rigid, modes, refinement, tolerance, _WIDTH)
-    if found.reason != compiled.CERTIFIED:
+    found = compiled.solve_beam(tables, rigid, modes, refinement, float(tolerance), _WIDTH)
+    if found.reason != compiled.CERTIFIED or not np.isfinite(found.error).all():
         return None
+    if found.omega2[0] < 0 and "translation" in rigid_modes(beam, "bending"):
+        return None  # its omega^2 = 0 lies above an elastic mode: indices do not tell them apart
     return Frequencies(found.omega2, found.error, found.bracket, found.counts, found.segments)
 
 

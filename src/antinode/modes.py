@@ -38,6 +38,7 @@ _SAFETY = 2.5  # estimate over likely error
 _ACCIDENT = 1 / 1024  # share of the last change but one that an estimate keeps
 _LIKELY = 1e-9  # least relative distance of samples from where an eigenvalue is expected
 _BESIDE = np.array([-4.0, -1.0, 1.0, 4.0])
+_LAYER = 0.1  # N h^2/EI up to which two representations are enough where N alone varies
 _NEAR_ZERO = 1e-9  # of the chain's own omega^2
 _MODEL_LIMIT = 0.02
 
@@ -170,6 +171,7 @@ def _solve_family(
     most = max(min(_MOST_SEGMENTS, _MOST_WORK // wanted), _LEAST_PER_MODE * wanted)
     refinement = max(1, wanted // _MODES_PER_REFINEMENT)
     chain = beam.chain(family, refinement)
+    smooth = smooth and _resolves_force(chain)
     eigenvalues = _certified(chain, wanted, zeros)
     levels = [_omega2(eigenvalues)]
     error = np.zeros(len(eigenvalues))
@@ -195,6 +197,13 @@ def _solve_family(
         eigenvalues, error, more = _by_tmm(chain, eigenvalues, error, zeros)
         warnings += more
     return _Solved(chain, eigenvalues, error, warnings)
+
+
+def _resolves_force(chain: Chain) -> bool:
+    """Tell whether no segment is long against sqrt(EI/N), the width of a layer at an end."""
+    if chain.family == "longitudinal":
+        return True
+    return bool(np.all(np.abs(chain.axial_force) * chain.length**2 < _LAYER * chain.stiffness))
 
 
 def _expected(levels: list[Array]) -> Array | None:

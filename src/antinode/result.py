@@ -64,8 +64,8 @@ class Mode:
     counts : tuple of int
         How many eigenvalues lie below either end of the bracket, or -1 where nothing is certified.
     error_omega2 : float
-        Bound on the distance to the eigenvalue of the beam as given [rad^2/s^2]: half the bracket
-        and the estimated error of representing what varies by uniform segments.
+        Distance to the eigenvalue of the beam as given [rad^2/s^2]: that to the bracket's end,
+        which is certain, and the estimated error of representing what varies by uniform segments.
     modal_mass : float
         Integral of m Y^2 for the shape as normalised [kg m^2 / m^2].
     residual : float

@@ -148,6 +148,40 @@ def test_past_buckling_where_the_beam_can_translate(ends):
         assert result.counts[row].tolist() == [list(m.counts) for m in modes[:5]]
 
 
+@pytest.mark.parametrize("load", [20.0, 45.0, 60.0, 100.0])
+@pytest.mark.parametrize("modes", [1, 2, 20])
+def test_the_first_modes_are_the_first_where_several_diverge(load, modes):
+    """Free-free under constant N: with one mode asked for, the second must not take its place."""
+    one = np.ones(4)
+    batch = an.BeamBatch(one / 4, one, one, load * one, modes=modes)
+    result, full = an.solve_many(batch), single(batch, 0)
+    elastic = [mode for mode in full.modes if mode.number][:modes]
+    assert result.omega2[0] == pytest.approx([mode.omega2 for mode in elastic], rel=1e-9)
+    assert result.counts[0].tolist() == [list(mode.counts) for mode in elastic]
+    alone = an.natural_frequencies(full.beam, modes)
+    assert alone.omega2 == pytest.approx(result.omega2[0], rel=1e-9)
+
+
+def test_one_segment_close_to_buckling():
+    """Its rounding comes from shapes, for which one segment is too long as it stands."""
+    one = np.ones(1)
+    result = an.solve_many(
+        an.BeamBatch(one, one, one, np.pi**2 / 4 * (1 - 1e-7) * one, an.Ends("clamped"), 20)
+    )
+    assert result.why(0) == ""
+    assert 0 < result.omega2[0, 0] < 1e-4
+
+
+@pytest.mark.filterwarnings("error")
+def test_numbers_beyond_reach_warn_nobody():
+    N, one = np.zeros((100, 5)), np.ones(5)
+    N[3, 0], N[4, 0] = np.inf, -np.inf
+    assert np.count_nonzero(an.solve_many(an.BeamBatch(one, one, np.ones((100, 5)), N)).reason) == 2
+    tiny = an.solve_many(an.BeamBatch(1e-80 * one, one, one))
+    assert "not finite" in tiny.why(0)
+    assert np.isnan(tiny.omega2).all()
+
+
 @pytest.mark.parametrize("modes", [1, 3, 7, 20])
 @pytest.mark.parametrize("beams", [20, 200])
 def test_neighbours_of_any_kind_give_the_same(modes, beams):

@@ -12,6 +12,7 @@ import antinode as an
 import hp_beam
 from antinode import kernel
 from antinode.attachments import Joint, PointMass, Spring
+from antinode.frequencies import _by_kernel
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 
@@ -88,6 +89,34 @@ def test_attachments_and_acceleration(interpolation, acceleration):
     fast, full = (solve(beam, 4, tolerance=1e-8) for solve in (an.natural_frequencies, modes_of))
     assert np.all(np.abs(fast.omega2 - full[0]) <= fast.error_omega2 + full[1])
     assert np.all(fast.error_omega2 <= 2.1e-8 * np.abs(fast.omega2))
+
+
+@pytest.mark.usefixtures("compiled")
+@pytest.mark.parametrize("seed", range(6))
+def test_the_error_holds_where_levels_agree_by_accident(seed):
+    """300 short linear tables, coarse tolerances: where a quarter of the last change did not."""
+    rng, ends = np.random.default_rng(seed), ("free", "clamped", "pinned", "sliding")
+    for _ in range(50):
+        n = int(rng.integers(2, 5))
+        m, EI = rng.uniform(0.3, 6, n), rng.uniform(0.3, 6, n)
+        held = an.Ends(*map(str, rng.choice(ends, 2)))
+        x = np.linspace(0, 1, n)
+        beam = an.Beam.from_stations(x, m, EI, interpolation="linear", ends=held)
+        exact = an.natural_frequencies(beam, 6, tolerance=1e-10)
+        found = an.natural_frequencies(beam, 6, tolerance=10 ** rng.uniform(-6, -3))
+        distance = np.abs(found.omega2 - exact.omega2)
+        assert np.all(distance <= found.error_omega2 + exact.error_omega2)
+
+
+@pytest.mark.usefixtures("compiled")
+def test_sixty_modes_stay_compiled():
+    """Roots that are found wait for the others without being halved for it."""
+    rng, x = np.random.default_rng(0), np.linspace(0, 1, 6)
+    tables = [rng.uniform(0.5, 2, (2, 6)) for _ in range(20)]
+    for m, EI in tables:
+        beam = an.Beam.from_stations(x, m, EI, interpolation="linear", ends=an.Ends("clamped"))
+        found = _by_kernel(kernel.kernel(), beam, 60, 1e-6)
+        assert found is not None
 
 
 STRUCTURE = ("mass_per_length", "bending_stiffness")

@@ -93,6 +93,32 @@ def test_what_varies_is_refined_and_its_error_reported():
             assert mode.error_hz <= 1.01 * tolerance * exact
 
 
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
+def test_a_layer_at_the_end_of_a_strong_tension_is_resolved(tolerance):
+    """N alone varies, to 1000 EI/L^2: two representations that miss the layer agree by accident."""
+    N = np.array([[0.0, 0.0], [0.0, -1000.0]])
+    one = np.ones((2, 2))
+    beam = Beam(np.array([0, 0.5, 1.0]), one, one, axial_force=N, ends=Ends("clamped", "free"))
+    exact = solve_modes(beam, 2, tolerance=1e-9)
+    for mode, truth in zip(
+        solve_modes(beam, 2, tolerance=tolerance).modes, exact.modes, strict=True
+    ):
+        assert abs(mode.omega2 - truth.omega2) <= mode.error_omega2 + truth.error_omega2
+
+
+def test_a_beam_keeps_its_own_numbers():
+    """Changing the caller's arrays afterwards changes nothing; the beam's own are read-only."""
+    x, m = np.array([0.0, 1.0, 2.0]), np.array([[1.0, 2.0], [2.0, 3.0]])
+    more = {"interpolation": "linear", "axial_acceleration": 0.3, "ends": Ends("clamped", "free")}
+    beam = Beam(x, m, m.copy(), **more)
+    before = solve_modes(beam, 2).frequencies_hz()
+    m *= 2
+    x *= 2
+    assert solve_modes(beam, 2).frequencies_hz().tolist() == before.tolist()
+    with pytest.raises(ValueError, match="read-only"):
+        beam.mass_per_length[0, 0] = 5.0
+
+
 def test_fourth_order_of_the_half_segments():
     x = np.linspace(0, 1, 3)
     beam = Beam.from_stations(

@@ -151,7 +151,8 @@ def solve_chains(
     neighbour, current, slope = np.full(1, -1), np.zeros(roots), np.zeros(roots)
     weights, quotient, own = np.empty((3, 0, n)), np.zeros((2, roots)), np.empty((4, n))
     if chains >= _MANY and len(length) == 1:
-        middle = [np.mean(values, axis=0) for values in (mass, stiffness, force)]
+        with np.errstate(all="ignore"):
+            middle = [np.mean(values, axis=0) for values in (mass, stiffness, force)]
         weights = _weights(Chain(length[0], *middle, *_NAMES[ends]), below, roots, weights)
     table, work, row = _scratch.table(n + n // 2 + 8), _scratch.work(n, roots), 0
     while row < chains:

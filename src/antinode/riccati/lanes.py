@@ -778,6 +778,8 @@ def _schedule(number, certifies, wanted, before, asked, owner):
         elif number[k]:
             asked[total], owner[total] = wanted[k, 0], k
             total += 1
+        else:
+            before[k] = np.inf  # it asks for nothing: it is not stuck
     searches = total
     room = LANES * ((searches + LANES - 1) // LANES) if searches else waiting
     for k in range(roots):
@@ -1132,6 +1134,7 @@ CHAIN_TOO_SMALL, TOO_MANY_STEPS, NOT_CONVERGED = -2, 6, 7
 
 MOST_LEVELS = 7
 _COARSE = 1e-8  # relative width of chains that only tell how omega^2 changes
+_ACCIDENT = 1 / 100  # of the last change of omega^2 that an error keeps, a neighbour's as well
 _SHARE = 1 / 4  # of the last change of the extrapolated omega^2: its error falls by 16 or more
 
 
@@ -1269,11 +1272,16 @@ def _refined(levels, level, tolerance, coarse, error, better):
 
     Roots of the first two levels may err by a tenth of the width `coarse`, of which 1/15 counts.
     """
-    sure = True
-    for k in range(levels.shape[1]):
+    number, sure = levels.shape[1], True
+    for k in range(number):
         a, b, c = levels[level - 2, k], levels[level - 1, k], levels[level, k]
         better[k] = c + (c - b) / 15
         error[k] = _SHARE * abs(better[k] - (b + (b - a) / 15)) + coarse / 100 * abs(better[k])
+    for k in range(number):
+        for j in range(max(0, k - 1), min(number, k + 2)):
+            a, b, c = levels[level - 2, j], levels[level - 1, j], levels[level, j]
+            change = max(abs(c - b), abs(b - a) / 16) / abs(better[j])
+            error[k] = max(error[k], _ACCIDENT * change * abs(better[k]))
         sure = sure and error[k] <= 2.0 * tolerance * abs(better[k])
     return sure
 
