@@ -134,9 +134,7 @@ class Beam:
         for name in ("x", *_TABLES):
             values = getattr(self, name)
             if values is not None:
-                own = np.array(values, dtype=float)
-                own.flags.writeable = False
-                object.__setattr__(self, name, own)
+                object.__setattr__(self, name, _own(values))
         _check(self)
 
     @classmethod
@@ -175,10 +173,10 @@ class Beam:
             column = np.asarray(values, dtype=float)
             if column.ndim == 0:
                 column = np.full(len(stations), column)
-            if interpolation == "step":
-                return np.repeat(column[:intervals, None], 2, axis=1)
             table = np.empty((intervals, 2))
-            table[:, 0], table[:, 1] = column[:-1], column[1:]
+            right = column[:intervals] if interpolation == "step" else column[1:]
+            table[:, 0], table[:, 1] = column[:intervals], right
+            table.flags.writeable = False
             return table
 
         m, EI, EA, N, r = (
@@ -475,6 +473,17 @@ _TABLES = (
 )
 
 
+def _own(values: npt.ArrayLike) -> Array:
+    """Return a read-only array that nobody else can write to."""
+    if isinstance(values, np.ndarray) and values.dtype == np.float64:
+        kept: Array = values
+        if kept.base is None and not kept.flags.writeable:
+            return kept
+    own = np.array(values, dtype=float)
+    own.flags.writeable = False
+    return own
+
+
 def _given(values: Array | None) -> Array:
     if values is None:
         raise InputError("axial_stiffness is missing: longitudinal modes need EA [N]")
@@ -526,7 +535,7 @@ def _check(beam: Beam) -> None:
     n = len(beam.x) - 1
     if n < 1:
         raise InputError(f"a beam needs at least two breakpoints x; received {n + 1}")
-    if not np.all(np.isfinite(beam.x)):
+    if not np.isfinite(beam.x).all():
         raise InputError("x: every breakpoint must be a finite number [m]")
     rises = beam.x[1:] > beam.x[:-1]
     for k in () if rises.all() else np.flatnonzero(~rises)[:1]:
