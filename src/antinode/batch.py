@@ -218,7 +218,7 @@ def _solve(
     reason, total = kernel.certify_guesses(
         own, batch.axial_force, ends, below, _WIDTH, guess, results
     )
-    again = np.flatnonzero((reason != 0) & (reason != _CLUSTERED))
+    again = np.flatnonzero(reason)
     if len(again):
         part = tuple(values[again] for values in results)
         rest = (values[:1] if len(values) == 1 else values[again] for values in tables)

@@ -148,6 +148,27 @@ def test_past_buckling_where_the_beam_can_translate(ends):
         assert result.counts[row].tolist() == [list(m.counts) for m in modes[:5]]
 
 
+@pytest.mark.parametrize("crossing", [5, 10, 13])
+@pytest.mark.parametrize("many", [False, True])
+def test_brackets_hold_where_modes_all_but_coincide(crossing, many):
+    """Pinned ends under N = (i^2 + j^2 + delta) N_cr: modes i and j, delta from 1e-16 to 1e-3."""
+    rng, n = np.random.default_rng([crossing, many]), 10
+    delta = rng.choice([-1, 1], 400) * 10 ** rng.uniform(-16, -3, 400)
+    load = np.concatenate([rng.uniform(0.9, 1.1, 200), 1 + delta]) * crossing
+    rng.shuffle(load)
+    m = np.ones((600, n) if not many else n)
+    N = load[:, None] * np.pi**2 * np.ones(n)
+    result = an.solve_many(
+        an.BeamBatch(np.full(n, 1 / n), m, np.ones(n), N, an.Ends("pinned", "pinned"), 4)
+    )
+    assert set(result.reason) <= {0, 6}
+    k = np.arange(1, 9)
+    exact = np.sort(np.pi**4 * (k**4 - load[:, None] * k**2))[:, :4]
+    low, high = np.moveaxis(result.bracket_omega2, -1, 0)
+    assert np.all(low - 2e-12 * np.pi**4 <= exact)
+    assert np.all(exact <= high + 2e-12 * np.pi**4)
+
+
 @pytest.mark.parametrize("load", [20.0, 45.0, 60.0, 100.0])
 @pytest.mark.parametrize("modes", [1, 2, 20])
 def test_the_first_modes_are_the_first_where_several_diverge(load, modes):

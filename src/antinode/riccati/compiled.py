@@ -126,6 +126,9 @@ def solve_chains(
 ) -> tuple[Integers, Integers]:
     """Solve chain after chain, each from the roots of the one before.
 
+    The table is new in every call: its size decides where a row starts afresh, and a result must
+    not depend on what was solved before.
+
     Parameters
     ----------
     length, mass, stiffness, force : array, shape (chains, n)
@@ -154,14 +157,14 @@ def solve_chains(
         with np.errstate(all="ignore"):
             middle = [np.mean(values, axis=0) for values in (mass, stiffness, force)]
         weights = _weights(Chain(length[0], *middle, *_NAMES[ends]), below, roots, weights)
-    table, work, row = _scratch.table(n + n // 2 + 8), _scratch.work(n, roots), 0
+    table, work, row = np.empty((lanes.ROWS, n + n // 2 + 8)), _scratch.work(n, roots), 0
     while row < chains:
         row, columns = lanes.solve_rows(
             *(length, mass, stiffness, force, ends, below, width, weights, row),
             *(neighbour, current, slope, quotient, own, table, work, *results, reason, total),
         )
         if row < chains:
-            neighbour[0], table = -1, _scratch.table(columns)
+            neighbour[0], table = -1, np.empty((lanes.ROWS, columns + columns // 2))
     return reason, total
 
 
@@ -217,7 +220,7 @@ def certify_guesses(
     own[0], own[1], own[2] = chain
     lanes.certify_rows(
         *(own, force, ends, below, width, guess, *results, reason, total),
-        *(_scratch.table(n + 64), _scratch.work(n, roots), np.zeros(n), np.zeros(roots)),
+        *(np.empty((lanes.ROWS, n + 64)), _scratch.work(n, roots), np.zeros(n), np.zeros(roots)),
     )
     return reason, total
 

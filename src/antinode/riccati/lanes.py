@@ -551,6 +551,8 @@ _EPSILON = 64 * float(np.finfo(float).eps)  # rounding of the minors, relative
 _MARGIN = 0.45  # half the distance of the certifying samples, in widths
 _SURE = 0.3  # share of a bracket that rounding may take
 PARTED = 1e-7  # relative distance of roots below which frames part them, and their shapes
+_APART, _ALONE = 1e-4, 1e-3  # ... below which counts are not sure, and without other samples
+_OFF, _WITHIN = 1e-7, 3e-2  # relative distances of samples that tell a slope
 _BESIDE = 1e-3  # relative distance from a first guess of a second sample, where a lane is free
 _FAR = 0.05  # relative likely error of a root up to which a second sample helps
 _NEIGHBOURS = 4  # roots on each side that are divided out
@@ -827,7 +829,16 @@ def _between(samples, at, root):
 
 
 @_compiled
-def _rounding(samples, at, right, force):
+def _over_slope(size, unit, width, rise, steepness, power):
+    """Return the rounding of minors over the smaller of two slopes: in the bracket, and around."""
+    slope = rise / width
+    if steepness > 0.0:
+        slope = min(slope, _shifted(steepness, -power))
+    return _EPSILON * size / (slope * unit) if slope > 0.0 else np.inf
+
+
+@_compiled
+def _rounding(samples, at, right, force, steepness):
     """Estimate the rounding of a root: that of the minors, over the slope of the one that is 0.
 
     The determinant of two roots that nearly coincide is small of second order, and its sign is
@@ -839,8 +850,9 @@ def _rounding(samples, at, right, force):
         scale = 1.0 / math.sqrt(abs(samples[low, 0]) + 1.0)
         size = max(abs(samples[low, 4]), abs(samples[low, 5]) * scale)
         other = _shifted(samples[high, 2], samples[high, 3] - samples[low, 3])
-        rise = (abs(samples[low, 2]) + abs(other)) * (1.0 if right == BAR_FIXED else scale)
-        return _EPSILON * size * width / rise if rise > 0.0 else np.inf
+        unit = 1.0 if right == BAR_FIXED else scale
+        return _over_slope(size, unit, width, abs(samples[low, 2]) + abs(other), steepness,
+                           samples[low, 3])  # fmt: skip
     scale = 1.0 / math.sqrt(math.sqrt(abs(samples[low, 0]) + force * force + 1.0))
     units = (1.0, scale, scale**2 / 2, scale**3 / 2, scale**4 / 2)
     size = 0.0
@@ -848,8 +860,43 @@ def _rounding(samples, at, right, force):
         size = max(size, abs(samples[low, 4 + row]) * units[row])
     unit = units[4] if right == 0 else units[0] if right == 1 else units[1 if right == 2 else 3]
     other = _shifted(samples[high, 2], samples[high, 3] - samples[low, 3])
-    rise = (abs(samples[low, 2]) + abs(other)) * unit
-    return _EPSILON * size * width / rise if rise > 0.0 else np.inf
+    return _over_slope(size, unit, width, abs(samples[low, 2]) + abs(other), steepness,
+                       samples[low, 3])  # fmt: skip
+
+
+@_compiled
+def _steepness(samples, total, root, k, rigid):
+    """Return the slope of the characteristic function at root k, from a sample off all roots.
+
+    It is the divided function there times the distances of the other roots; 0 if no sample will do.
+    Beside a root that nearly coincides, samples in between tell noise.
+    """
+    best, place = _OFF * abs(root[k]), -1
+    for i in range(total):
+        x = samples[i, 0]
+        if abs(x - root[k]) > _WITHIN * abs(root[k]):
+            continue
+        off = abs(x - root[k])
+        for j in range(max(0, k - 1), min(len(root), k + 2)):
+            off = min(off, abs(x - root[j]))
+        if off > best:
+            best, place = off, i
+    if place < 0:
+        return 0.0
+    x = samples[place, 0]
+    divided = samples[place, 2] / _others(x, root, k, rigid) / (x - root[k])
+    return abs(_shifted(divided * _others(root[k], root, k, rigid), samples[place, 3]))
+
+
+@_compiled
+def _closest(root, k):
+    """Return the distance of root k to its neighbours, relative to it."""
+    gap = np.inf
+    if k > 0:
+        gap = min(gap, abs(root[k] - root[k - 1]))
+    if k + 1 < len(root):
+        gap = min(gap, abs(root[k + 1] - root[k]))
+    return gap / max(abs(root[k]), 1e-300)
 
 
 @_compiled
@@ -960,8 +1007,10 @@ def find_roots(
             for i in range(len(h)):
                 most = max(most, abs(N[i]))
             for k in range(len(root)):
-                rounding[k] = _rounding(samples, at[k], ends[1], force)
+                steepness = _steepness(samples, total, root, k, below)
+                rounding[k] = _rounding(samples, at[k], ends[1], force, steepness)
                 sure = sure and rounding[k] <= _SURE * width * abs(root[k])
+                sure = sure and _closest(root, k) > (_APART if steepness > 0.0 else _ALONE)
                 rounding[k] = max(rounding[k], _cancelling(root[k], most))
             return CERTIFIED if sure else CLUSTERED, total
     return NOT_BRACKETED, total
