@@ -1,6 +1,8 @@
 """Options of the tests."""
 
 import os
+import subprocess
+import sys
 
 import pytest
 
@@ -12,6 +14,14 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
+    """Have the kernel compiled once, by a process of its own, before any worker starts.
+
+    Numba's code from memory and from its cache differ in the last digits of what they compute;
+    tests that compare processes to the bit need the same one everywhere.
+    """
+    if not hasattr(config, "workerinput"):
+        code = "from antinode.kernel import kernel; kernel()"
+        subprocess.run([sys.executable, "-c", code], check=True)
     if config.getoption("--compiled"):
         from antinode.kernel import kernel
 
