@@ -168,6 +168,7 @@ class Beam:
         intervals = len(stations) - 1
 
         def between(values: npt.ArrayLike | None) -> Array | None:
+            """Return values at both ends of every interval, shape (n, 2)."""
             if values is None:
                 return None
             column = np.asarray(values, dtype=float)
@@ -363,6 +364,7 @@ class Beam:
         nearer = np.where(second == 1, _FAR, _NEAR)  # weight of the first Gauss point
 
         def average(values: Callable[[Integers, Array], Array]) -> Array:
+            """Return weighted means of the values at the Gauss points, one for each segment."""
             first, last = (values(interval, start + size * g)[step] for g in _GAUSS)
             return np.asarray(nearer * first + (1 - nearer) * last)
 
