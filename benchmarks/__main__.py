@@ -21,7 +21,7 @@ import numpy as np  # noqa: E402
 from scipy.linalg import eigh  # noqa: E402
 
 import antinode as an  # noqa: E402
-from antinode.riccati import lanes  # noqa: E402
+from antinode.riccati.lanes import kernel as lanes  # noqa: E402
 
 from . import c, table  # noqa: E402
 from .beams import LENGTH, MODES, SEGMENTS, medians, smooth_case, steep_stations, stepped_beam  # noqa: E402

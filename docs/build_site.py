@@ -29,15 +29,15 @@ CONTENTS = {
 WHOLE = ("The solver", "From beam to result", "The vehicle")
 MORE = {
     "errors.py",
-    "units.py",
-    "statics.py",
-    "dataset.py",
-    "loads_table.py",
-    "plot_style.py",
-    "figures.py",
-    "verify.py",
-    "study/derivatives.py",
-    "study/response.py",
+    "inputs/units.py",
+    "vehicle/statics.py",
+    "show/dataset.py",
+    "show/loads_table.py",
+    "show/style.py",
+    "show/figures.py",
+    "modes/verify.py",
+    "vehicle/derivatives.py",
+    "study/eigenvalues.py",
     "report/command.py",
 }
 """Parts of the architecture whose modules all have a page, and modules besides that have one."""

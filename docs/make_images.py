@@ -13,12 +13,21 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from PIL import Image
 
-from antinode import Beam, Ends, load_beam, load_case, load_study, sensitivity, solve_modes, sweep
-from antinode.figures import PALETTE, plot_case, plot_loads, plot_modes, save
-from antinode.plot_style import BODY, GREY, INK, WIDTH, styled
-from antinode.study.sensitivity_command import read_uncertain
-from antinode.study.sensitivity_command import tornado as plot_tornado
-from antinode.study.sweep_figures import plot_sweep
+from antinode import (
+    Beam,
+    Ends,
+    load_beam,
+    load_case,
+    load_study,
+    sensitivity,
+    solve_modes,
+    sweep,
+)
+from antinode.show.figures import PALETTE, plot_case, plot_loads, plot_modes, save
+from antinode.show.style import BODY, GREY, INK, WIDTH, styled
+from antinode.study.sensitivity.command import read_uncertain
+from antinode.study.sensitivity.command import tornado as plot_tornado
+from antinode.study.sweep.figures import plot_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 IMAGES = ROOT / "docs" / "images"

@@ -20,10 +20,10 @@ def pytest_configure(config):
     tests that compare processes to the bit need the same one everywhere.
     """
     if not hasattr(config, "workerinput"):
-        code = "from antinode.kernel import kernel; kernel()"
+        code = "from antinode.modes.kernel import kernel; kernel()"
         subprocess.run([sys.executable, "-c", code], check=True)
     if config.getoption("--compiled"):
-        from antinode.kernel import kernel
+        from antinode.modes.kernel import kernel
 
         kernel()
 

@@ -8,8 +8,8 @@ acceleration or gravity, in a third of the cases point masses, springs, supports
 import numpy as np
 
 import antinode as an
-from antinode.attachments import Joint, PointMass, Spring
-from antinode.axial import AxialLoads, PointForce, apply_loads
+from antinode.beam.attachments import Joint, PointMass, Spring
+from antinode.beam.axial import AxialLoads, PointForce, apply_loads
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 

@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 
 import antinode as an
-from antinode.study.store import TIMESTAMPS, checksum
+from antinode.study.sweep.store import TIMESTAMPS, checksum
 
 HERE = Path(__file__).resolve().parent
 STUDIES = {
@@ -310,7 +310,7 @@ def clock(reference, folder):
     """A clock that runs backwards, and files from the future."""
     path = folder / "clock.zarr"
     back = (
-        "import time, itertools, antinode.study.sweep as s\n"
+        "import time, itertools, antinode.study.sweep.sweep as s\n"
         "count = itertools.count()\n"
         "time.time = lambda: 1e9 - 3600.0 * next(count)\n"
         "s._now = lambda: '1970-01-01T00:00:00+00:00'"

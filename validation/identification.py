@@ -104,7 +104,7 @@ def problem(case, frequencies=None):
 def draw(case, seed, twin):
     """True vector of a twin and its noisy frequencies; drawn again where the vehicle cannot be."""
     import antinode as an
-    from antinode.study.identification import prepare
+    from antinode.study.identify.identification import prepare
 
     misfit = prepare(problem(case))
     random = np.random.default_rng([seed, twin])

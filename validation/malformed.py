@@ -24,8 +24,15 @@ import tomllib
 from datetime import UTC, datetime
 from pathlib import Path
 
-from antinode import AntinodeError, ComputationError, InputError, load_beam, load_case, solve_modes
-from antinode.units import to_si
+from antinode import (
+    AntinodeError,
+    ComputationError,
+    InputError,
+    load_beam,
+    load_case,
+    solve_modes,
+)
+from antinode.inputs.units import to_si
 
 ROOT = Path(__file__).resolve().parents[1]
 EXAMPLES = ROOT / "src" / "antinode" / "examples"

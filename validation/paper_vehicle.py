@@ -18,8 +18,8 @@ import numpy as np
 import antinode as an
 from antinode.paper.comparison import Line, example, size_of
 from antinode.paper.tables import BURN_FRACTION, MODES, read_rows
-from antinode.study.identification_file import IdentificationProblem
-from antinode.vehicle import Stations, Vehicle
+from antinode.study.identify.file import IdentificationProblem
+from antinode.vehicle.vehicle import Stations, Vehicle
 
 LENGTH, ELEMENTS = 6.0, 40
 THRUST = 50e3

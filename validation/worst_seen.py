@@ -31,7 +31,7 @@ from modes_tools import chain_matrices  # noqa: E402
 
 import reference  # noqa: E402
 from antinode import Beam, Ends, load_case, solve_modes  # noqa: E402
-from antinode.buckling import buckling  # noqa: E402
+from antinode.modes.buckling import buckling  # noqa: E402
 from antinode.riccati.chain import Chain  # noqa: E402
 from antinode.riccati.roots import find_eigenvalues  # noqa: E402
 from antinode.riccati.segment import bending_transfer, wave_number  # noqa: E402

@@ -14,61 +14,62 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from .batch import BatchResult, BeamBatch, solve_many
-    from .beam import Beam, Ends
-    from .beam_file import BeamFile, load_beam
-    from .case import Case, load_case
-    from .condition import OperatingCondition, Water
+    from .beam.beam import Beam
+    from .beam.ends import Ends
+    from .beam.file import BeamFile, load_beam
     from .errors import AntinodeError, ComputationError, InputError
-    from .frequencies import Frequencies, natural_frequencies
-    from .loads import Loads, compute_loads
-    from .model import Model
-    from .modes import solve_modes
-    from .result import ModalResult, Mode
-    from .study.identification import Identification, identify
-    from .study.identification_file import IdentificationProblem, load_identification
-    from .study.sensitivity import sensitivity
-    from .study.store import open_store
-    from .study.study_file import Study, load_study
-    from .study.sweep import sweep
-    from .vehicle import Cavitator, FinSet, Stations, Vehicle
+    from .modes.batch import BatchResult, BeamBatch, solve_many
+    from .modes.frequencies import Frequencies, natural_frequencies
+    from .modes.result import ModalResult, Mode
+    from .modes.solve import solve_modes
+    from .study.identify.file import IdentificationProblem, load_identification
+    from .study.identify.identification import Identification, identify
+    from .study.sensitivity.sensitivity import sensitivity
+    from .study.sweep.file import Study, load_study
+    from .study.sweep.store import open_store
+    from .study.sweep.sweep import sweep
+    from .vehicle.case import Case, load_case
+    from .vehicle.condition import OperatingCondition, Water
+    from .vehicle.loads import Loads, compute_loads
+    from .vehicle.options import Model
+    from .vehicle.vehicle import Cavitator, FinSet, Stations, Vehicle
 
 _HOME = {
-    "BatchResult": "batch",
-    "BeamBatch": "batch",
-    "solve_many": "batch",
-    "Beam": "beam",
-    "Ends": "beam",
-    "BeamFile": "beam_file",
-    "load_beam": "beam_file",
-    "Case": "case",
-    "load_case": "case",
-    "OperatingCondition": "condition",
-    "Water": "condition",
+    "BatchResult": "modes.batch",
+    "BeamBatch": "modes.batch",
+    "solve_many": "modes.batch",
+    "Beam": "beam.beam",
+    "Ends": "beam.ends",
+    "BeamFile": "beam.file",
+    "load_beam": "beam.file",
+    "Case": "vehicle.case",
+    "load_case": "vehicle.case",
+    "OperatingCondition": "vehicle.condition",
+    "Water": "vehicle.condition",
     "AntinodeError": "errors",
     "ComputationError": "errors",
     "InputError": "errors",
-    "Frequencies": "frequencies",
-    "natural_frequencies": "frequencies",
-    "Loads": "loads",
-    "compute_loads": "loads",
-    "Model": "model",
-    "solve_modes": "modes",
-    "ModalResult": "result",
-    "Mode": "result",
-    "Identification": "study.identification",
-    "identify": "study.identification",
-    "IdentificationProblem": "study.identification_file",
-    "load_identification": "study.identification_file",
-    "Study": "study.study_file",
-    "load_study": "study.study_file",
-    "sweep": "study.sweep",
-    "sensitivity": "study.sensitivity",
-    "open_store": "study.store",
-    "Cavitator": "vehicle",
-    "FinSet": "vehicle",
-    "Stations": "vehicle",
-    "Vehicle": "vehicle",
+    "Frequencies": "modes.frequencies",
+    "natural_frequencies": "modes.frequencies",
+    "Loads": "vehicle.loads",
+    "compute_loads": "vehicle.loads",
+    "Model": "vehicle.options",
+    "solve_modes": "modes.solve",
+    "ModalResult": "modes.result",
+    "Mode": "modes.result",
+    "Identification": "study.identify.identification",
+    "identify": "study.identify.identification",
+    "IdentificationProblem": "study.identify.file",
+    "load_identification": "study.identify.file",
+    "Study": "study.sweep.file",
+    "load_study": "study.sweep.file",
+    "sweep": "study.sweep.sweep",
+    "sensitivity": "study.sensitivity.sensitivity",
+    "open_store": "study.sweep.store",
+    "Cavitator": "vehicle.vehicle",
+    "FinSet": "vehicle.vehicle",
+    "Stations": "vehicle.vehicle",
+    "Vehicle": "vehicle.vehicle",
 }
 
 __all__ = [

@@ -8,8 +8,8 @@ import pytest
 from scipy.linalg import eigh
 
 from antinode import Beam, Ends, solve_modes
-from antinode.attachments import Joint, PointMass, Spring
-from antinode.axial import AxialLoads, apply_loads
+from antinode.beam.attachments import Joint, PointMass, Spring
+from antinode.beam.axial import AxialLoads, apply_loads
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 EACH = {

@@ -12,7 +12,7 @@ import pytest
 
 import antinode as an
 import reference
-from antinode.beam import Ends
+from antinode.beam.ends import Ends
 
 MODES = 4
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from antinode import Beam, Ends
-from antinode.attachments import Joint, PointMass, Spring
+from antinode.beam.attachments import Joint, PointMass, Spring
 from antinode.riccati.chain import count_below
 
 ENDS = ("free", "clamped", "pinned", "sliding")

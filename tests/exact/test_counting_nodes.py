@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import antinode as an
-from antinode.attachments import Joint, PointMass, Spring
+from antinode.beam.attachments import Joint, PointMass, Spring
 from antinode.riccati.chain import count_below
 from reference import BarChain, BeamChain, Node, certain_count, enclose
 

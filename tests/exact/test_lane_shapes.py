@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
-from antinode.kernel import kernel
-from antinode.riccati import compiled, lane_shapes, shapes
+from antinode.modes.kernel import kernel
+from antinode.riccati import shapes
 from antinode.riccati.chain import Chain
+from antinode.riccati.lanes import calls as compiled
+from antinode.riccati.lanes import shapes as lane_shapes
 from antinode.riccati.points import Point
 from antinode.riccati.roots import find_eigenvalues
 

@@ -3,10 +3,13 @@
 import numpy as np
 import pytest
 
-from antinode.beam import LIMITS, Beam
+from antinode.beam.beam import Beam
+from antinode.beam.representation import LIMITS
 from antinode.riccati import chain as readable
-from antinode.riccati import compiled, lanes, roots
+from antinode.riccati import roots
 from antinode.riccati.chain import Chain, omega2_scale
+from antinode.riccati.lanes import calls as compiled
+from antinode.riccati.lanes import kernel as lanes
 from antinode.riccati.points import Point
 from antinode.riccati.segment import fundamental
 from chains import draw_case, draw_resonance

@@ -9,9 +9,9 @@ from scipy.optimize import brentq
 from scipy.special import jv
 
 from antinode import Beam, Ends, InputError, solve_modes
-from antinode.attachments import Joint, PointMass, Spring
-from antinode.axial import AxialLoads, PointForce, apply_loads
-from antinode.buckling import buckling
+from antinode.beam.attachments import Joint, PointMass, Spring
+from antinode.beam.axial import AxialLoads, PointForce, apply_loads
+from antinode.modes.buckling import buckling
 
 G = 9.80665
 
@@ -130,9 +130,9 @@ def test_a_beam_in_tension_does_not_buckle():
 
 def test_static_deflection_against_modal_superposition(tmp_path):
     """Forty modes of the loaded beam carry the loads; rigid motion is removed from both."""
-    from antinode.case import load_case
     from antinode.examples import write_example
-    from antinode.statics import _rigid_part, static_shape
+    from antinode.vehicle.case import load_case
+    from antinode.vehicle.statics import _rigid_part, static_shape
 
     write_example("starter", tmp_path)
     case = load_case(tmp_path / "case.toml")
@@ -161,9 +161,9 @@ def test_static_deflection_against_modal_superposition(tmp_path):
 
 def test_static_deflection_without_axial_force_is_the_integral_of_the_moment(tmp_path):
     """T = 0 and a cavity far too slow to matter is hard to arrange; scale N away instead."""
-    from antinode.case import load_case
     from antinode.examples import write_example
-    from antinode.statics import _slope
+    from antinode.vehicle.case import load_case
+    from antinode.vehicle.statics import _slope
 
     write_example("starter", tmp_path)
     case = load_case(tmp_path / "case.toml")

@@ -6,7 +6,7 @@ from validation.tolerances import faults, judge, ratios
 
 import antinode as an
 import hp_beam
-from antinode.beam import Ends
+from antinode.beam.ends import Ends
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import find_eigenvalues
 from tables import draw_beam

@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from antinode import load_beam, load_case, solve_modes
-from antinode.attachments import Joint, PointMass, Spring
-from antinode.beam import Beam, Ends
+from antinode.beam.attachments import Joint, PointMass, Spring
+from antinode.beam.beam import Beam
+from antinode.beam.ends import Ends
 
 EXAMPLES = ("starter", "beam", "tower", "rocket", "drill_string", "shaft")
 

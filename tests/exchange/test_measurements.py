@@ -9,11 +9,11 @@ import pytest
 import pyuff
 
 from antinode import InputError
-from antinode.exchange.frf import find_modes
 from antinode.exchange.outputs import Modes, write_modes
-from antinode.exchange.uff_reader import read_measurements
+from antinode.exchange.uff.frf import find_modes
+from antinode.exchange.uff.reader import read_measurements
 from antinode.exchange.units import MM_T_S
-from antinode.study.identification_file import ObservationRow, load_identification
+from antinode.study.identify.file import ObservationRow, load_identification
 from cli_run import refused, run
 from exchange.conversions import solved
 

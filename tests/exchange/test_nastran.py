@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from antinode import InputError, solve_modes
-from antinode.attachments import Joint, PointMass, Spring
-from antinode.beam import Ends
-from antinode.exchange.nastran_cards import card_text, read_deck, real_text
-from antinode.exchange.nastran_reader import read_nastran
-from antinode.exchange.nastran_writer import nastran_text, write_nastran
+from antinode.beam.attachments import Joint, PointMass, Spring
+from antinode.beam.ends import Ends
+from antinode.exchange.nastran.cards import card_text, read_deck, real_text
+from antinode.exchange.nastran.reader import read_nastran
+from antinode.exchange.nastran.writer import nastran_text, write_nastran
 from antinode.exchange.units import MM_T_S, SI
 from cli_run import refused, run
 from exchange.conversions import solved

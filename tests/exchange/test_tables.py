@@ -8,13 +8,14 @@ import openpyxl
 import pytest
 
 from antinode import InputError, load_beam
-from antinode.beam import Beam, Ends
+from antinode.beam.beam import Beam
+from antinode.beam.ends import Ends
 from antinode.exchange.beam_toml import beam_file_text
 from antinode.exchange.convert import Request, convert
 from antinode.exchange.inputs import Choices, read_beam
 from antinode.exchange.outputs import write_beam
 from antinode.exchange.tabulated import Stations, tabulate
-from antinode.files import read_csv
+from antinode.inputs.reading import read_csv
 from exchange.conversions import EXAMPLES, difference, everything, example, solved
 
 NAMES = (*EXAMPLES, "everything")

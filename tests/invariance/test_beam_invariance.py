@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from antinode import Beam, Ends, solve_modes
-from antinode.attachments import Joint, PointMass, Spring
+from antinode.beam.attachments import Joint, PointMass, Spring
 
 ALLOWED = 1e-10
 ENDS = ("free", "clamped", "pinned", "sliding")

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import antinode as an
-from antinode.axial import AxialLoads, PointForce, apply_loads
-from antinode.buckling import buckling
+from antinode.beam.axial import AxialLoads, PointForce, apply_loads
+from antinode.modes.buckling import buckling
 from literature.published import check_printed, extrapolated
 
 HEAVY = {

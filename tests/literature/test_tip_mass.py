@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from antinode.attachments import PointMass, Spring
+from antinode.beam.attachments import PointMass, Spring
 from literature.published import check_printed, omegas, unit_beam
 
 LAURA = {0.2: "1.6164", 0.4: "1.4724", 0.6: "1.3757", 0.8: "1.3041", 1.0: "1.2479"}

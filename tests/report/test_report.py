@@ -14,9 +14,9 @@ from antinode.examples import write_example
 from antinode.report.blocks import Table, runs, table
 from antinode.report.command import make_report, run_report
 from antinode.report.html import to_html
-from antinode.report.influence import beam_influences, case_influences
 from antinode.report.numbers import apart, number, percent, small
 from antinode.report.provenance import hash_of
+from antinode.study.sensitivity.influence import beam_influences, case_influences
 from cli_run import run
 
 TITLES = [

@@ -14,7 +14,8 @@ import jsonschema
 import numpy as np
 import pytest
 
-from antinode import ComputationError, commands
+from antinode import ComputationError
+from antinode.cli import commands
 from antinode.examples import EXAMPLES
 from cli_run import contents, python, refused, replaced, run
 

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from antinode import InputError, solve_modes
-from antinode.beam import Beam, Ends
-from antinode.dataset import check_output, modal_table, to_json, write_result
+from antinode.beam.beam import Beam
+from antinode.beam.ends import Ends
 from antinode.extras import import_extra
-from antinode.result import COMPONENTS
+from antinode.modes.result import COMPONENTS
+from antinode.show.dataset import check_output, modal_table, to_json, write_result
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from antinode import Beam, Ends, solve_modes
-from antinode.attachments import Joint, PointMass, Spring, attachment_dict
-from antinode.figures import plot_case, plot_loads, plot_modes, save
-from antinode.plot_style import FILE, PALETTE, STYLE, styled
-from antinode.svg import for_page
+from antinode.beam.attachments import Joint, PointMass, Spring, attachment_dict
+from antinode.show.figures import plot_case, plot_loads, plot_modes, save
+from antinode.show.style import FILE, PALETTE, STYLE, styled
+from antinode.show.svg import for_page
 
 
 @pytest.fixture(scope="module")

@@ -9,18 +9,19 @@ import numpy as np
 import pytest
 
 from antinode import InputError, load_beam, load_case
-from antinode.attachments import PointMass, Spring
-from antinode.beam import Beam, Ends
-from antinode.beam_file import BeamFile
-from antinode.case import Case
+from antinode.beam.attachments import PointMass, Spring
+from antinode.beam.beam import Beam
+from antinode.beam.ends import Ends
+from antinode.beam.file import BeamFile
+from antinode.beam.limits import check_limits
 from antinode.examples import EXAMPLES, write_example
-from antinode.explain import key_text, validate
-from antinode.files import MOST_ROWS, read_csv, read_toml
-from antinode.limits import check_limits
-from antinode.override import override
+from antinode.inputs.explain import key_text, validate
+from antinode.inputs.override import override
+from antinode.inputs.reading import MOST_ROWS, read_csv, read_toml
+from antinode.inputs.units import Frozen
 from antinode.text import nearest, one_line, short
-from antinode.units import Frozen
-from antinode.vehicle import Vehicle
+from antinode.vehicle.case import Case
+from antinode.vehicle.vehicle import Vehicle
 from cli_run import refused, run
 
 COLUMNS = ("x", "mass_per_length", "bending_stiffness")

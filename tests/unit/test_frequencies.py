@@ -10,9 +10,9 @@ import pytest
 
 import antinode as an
 import hp_beam
-from antinode import kernel
-from antinode.attachments import Joint, PointMass, Spring
-from antinode.frequencies import _by_kernel
+from antinode.beam.attachments import Joint, PointMass, Spring
+from antinode.modes import kernel
+from antinode.modes.frequencies import _by_kernel
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 
@@ -161,12 +161,12 @@ def test_numba_is_not_waited_for_where_numpy_is_done_sooner(cached, tmp_path):
     """A large beam loads the kernel from its cache, and does not have it compiled."""
     code = """
 import sys
-from antinode.kernel import kernel_if_worthwhile
+from antinode.modes.kernel import kernel_if_worthwhile
 print(kernel_if_worthwhile(200, 8) is None, kernel_if_worthwhile(10_000, 8) is None)
 """
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     if cached:
-        fill = [sys.executable, "-c", "from antinode.kernel import kernel; kernel()"]
+        fill = [sys.executable, "-c", "from antinode.modes.kernel import kernel; kernel()"]
         subprocess.run(fill, env=environment, check=True, capture_output=True)
     command = [sys.executable, "-c", code]
     told = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
@@ -180,7 +180,7 @@ def test_a_cache_folder_where_the_package_is_read_only(monkeypatch, tmp_path):
 import numba
 from numba.core import caching
 caching.CacheImpl._locator_classes = [caching.UserProvidedCacheLocator]
-from antinode.kernel import _import_kernel
+from antinode.modes.kernel import _import_kernel
 _import_kernel()
 print(numba.config.CACHE_DIR)
 """

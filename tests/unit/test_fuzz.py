@@ -16,14 +16,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from antinode import ComputationError, InputError
-from antinode.beam_file import COLUMNS as BEAM_COLUMNS
-from antinode.beam_file import BeamFile, load_beam
-from antinode.case import COLUMNS, Case, load_case
+from antinode.beam.file import COLUMNS as BEAM_COLUMNS
+from antinode.beam.file import BeamFile, load_beam
 from antinode.examples import EXAMPLES
-from antinode.explain import validate
-from antinode.files import read_csv
-from antinode.override import override
-from antinode.units import to_si
+from antinode.inputs.explain import validate
+from antinode.inputs.override import override
+from antinode.inputs.reading import read_csv
+from antinode.inputs.units import to_si
+from antinode.vehicle.case import COLUMNS, Case, load_case
 from cli_run import python
 
 SLOW = [HealthCheck.too_slow, HealthCheck.function_scoped_fixture]

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from antinode.hydrodynamics import Range, fins, form_cavity, planing_state
-from antinode.hydrodynamics import cavitator as disk
-from antinode.hydrodynamics import cavity as hole
-from antinode.hydrodynamics import planing as tail
-from antinode.model import Model
+from antinode.vehicle.hydrodynamics import Range, fins, form_cavity, planing_state
+from antinode.vehicle.hydrodynamics import cavitator as disk
+from antinode.vehicle.hydrodynamics import cavity as hole
+from antinode.vehicle.hydrodynamics import planing as tail
+from antinode.vehicle.options import Model
 
 close = pytest.approx
 DEG = math.radians(1)

@@ -16,13 +16,14 @@ from validation.identification import (
 )
 
 import antinode as an
-from antinode.study.columns import interpolation_matrix, second_differences
-from antinode.study.derivatives import hats
-from antinode.study.fit import Search, robust_cost
-from antinode.study.identification import prepare
-from antinode.study.identified_case import case_toml, stations_csv, write_identification
-from antinode.study.observations import pair
-from antinode.study.response import respond
+from antinode.study.eigenvalues import respond
+from antinode.study.identify.columns import second_differences
+from antinode.study.identify.fit import Search, robust_cost
+from antinode.study.identify.fitted_case import case_toml, stations_csv, write_identification
+from antinode.study.identify.identification import prepare
+from antinode.study.identify.observations import pair
+from antinode.vehicle.columns import interpolation_matrix
+from antinode.vehicle.derivatives import hats
 from cli_run import run
 
 
@@ -129,7 +130,7 @@ def test_priors_and_smoothness_have_their_derivatives(case):
 
 @pytest.mark.parametrize("how", ["step", "linear", "log"])
 def test_hats_are_derivatives_of_a_column_and_of_its_integral(how):
-    from antinode.vehicle import MassDistribution
+    from antinode.beam.mass import MassDistribution
 
     stations, column = np.array([0.0, 1.0, 3.0, 4.0]), np.array([2.0, 5.0, 1.0, 3.0])
     x = np.array([0.3, 1.7, 3.9])

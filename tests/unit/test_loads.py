@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from antinode.condition import OperatingCondition, Water
 from antinode.errors import InputError
-from antinode.loads import compute_loads
-from antinode.model import Model
-from antinode.vehicle import Vehicle
+from antinode.vehicle.condition import OperatingCondition, Water
+from antinode.vehicle.loads import compute_loads
+from antinode.vehicle.options import Model
+from antinode.vehicle.vehicle import Vehicle
 
 close = pytest.approx
 

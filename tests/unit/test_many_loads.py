@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import antinode as an
-from antinode.loads import compute_loads
-from antinode.study.chunks import case_of
-from antinode.study.many_beams import ManyBeams
-from antinode.study.many_loads import compute_many_loads
-from antinode.study.study_file import LOAD_OUTPUTS
+from antinode.study.sweep.chunks import case_of
+from antinode.study.sweep.file import LOAD_OUTPUTS
+from antinode.vehicle.loads import compute_loads
+from antinode.vehicle.many_beams import ManyBeams
+from antinode.vehicle.many_loads import compute_many_loads
 from cli_run import replaced, run
 
 RANGES = {

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from antinode import load_beam, solve_modes
-from antinode.vehicle import MassDistribution
+from antinode.beam.mass import MassDistribution
 
 HULL = MassDistribution(np.array([0.0, 2.0, 6.0]), np.array([[3.0, 3.0], [5.0, 5.0]]), "step")
 TANK = MassDistribution(np.array([1.0, 4.0]), np.array([[2.0, 8.0]]), "linear")

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from antinode import Beam, ComputationError, Ends, InputError, solve_modes
-from antinode.buckling import buckling
-from antinode.dataset import to_json
+from antinode.modes.buckling import buckling
+from antinode.show.dataset import to_json
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 RIGID = {

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import antinode as an
-from antinode.study.chunks import case_of
-from antinode.study.design import points_of
-from antinode.study.study_file import Study
-from antinode.study.sweep import sweep
-from antinode.study.sweep_figures import crossings
-from antinode.study.tracking import neighbours, track
+from antinode.study.sweep.chunks import case_of
+from antinode.study.sweep.design import points_of
+from antinode.study.sweep.figures import crossings
+from antinode.study.sweep.file import Study
+from antinode.study.sweep.sweep import sweep
+from antinode.study.sweep.tracking import neighbours, track
 from cli_run import refused, run
 
 

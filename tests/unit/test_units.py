@@ -7,8 +7,8 @@ import pint
 import pytest
 from pydantic import ConfigDict, Field, ValidationError
 
-from antinode.known_units import FACTORS
-from antinode.units import Angle, Force, Frozen, Length, Number, to_si, unit_factor
+from antinode.inputs.known_units import FACTORS
+from antinode.inputs.units import Angle, Force, Frozen, Length, Number, to_si, unit_factor
 
 
 class Sample(Frozen):

@@ -7,10 +7,11 @@ import pytest
 from pydantic import ValidationError
 from scipy.integrate import quad
 
-from antinode.condition import OperatingCondition, Water, resolve_cavitation
+from antinode.beam.mass import MassDistribution
 from antinode.errors import InputError
-from antinode.model import Model
-from antinode.vehicle import FinSet, MassDistribution, Stations, Vehicle
+from antinode.vehicle.condition import OperatingCondition, Water, resolve_cavitation
+from antinode.vehicle.options import Model
+from antinode.vehicle.vehicle import FinSet, Stations, Vehicle
 
 
 def table(**changes):

@@ -13,19 +13,18 @@ from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
-import numpy.typing as npt
 
-from antinode.beam import Beam
-from antinode.case import Case
-from antinode.modes import solve_modes
-from antinode.result import ModalResult
+from antinode.arrays import Array
+from antinode.beam.beam import Beam
+from antinode.modes.result import ModalResult
+from antinode.modes.solve import solve_modes
 from antinode.riccati.chain import evaluate
+from antinode.vehicle.case import Case
 
 from .inputs import Problem
 from .quick import Quick, quick_modes
 from .state import State
 
-Array = npt.NDArray[np.float64]
 Result = TypeVar("Result")
 _SAMPLES = 129  # of the characteristic function
 MOST_MODES = 12

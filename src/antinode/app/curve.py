@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
+from antinode.arrays import Array
 from antinode.errors import AntinodeError
 
 from .compute import wanted_modes
@@ -15,7 +15,6 @@ from .inputs import Input
 from .quick import quick_omega2
 from .state import State
 
-Array = npt.NDArray[np.float64]
 _LEVELS = 4  # 5, 9, 17, 33 points
 
 

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from antinode.case import Case
-from antinode.condition import resolve_cavitation
+from antinode.vehicle.case import Case
+from antinode.vehicle.condition import resolve_cavitation
 
 from .display import number_text, shown_unit
 from .inputs import Input

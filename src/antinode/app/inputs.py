@@ -9,9 +9,9 @@ from typing import Any, NamedTuple, get_args
 
 from pydantic import BaseModel
 
-from antinode.beam_file import BeamFile
-from antinode.case import Case
-from antinode.units import Unit
+from antinode.beam.file import BeamFile
+from antinode.inputs.units import Unit
+from antinode.vehicle.case import Case
 
 Problem = Case | BeamFile
 _MOST_SLIDERS = 6

@@ -10,15 +10,13 @@ import threading
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from antinode.batch import BeamBatch, solve_many
-from antinode.beam import Beam
-from antinode.frequencies import natural_frequencies
-from antinode.kernel import shapes_for
-from antinode.modes import solve_modes
-
-Array = npt.NDArray[np.float64]
+from antinode.arrays import Array
+from antinode.beam.beam import Beam
+from antinode.modes.batch import BeamBatch, solve_many
+from antinode.modes.frequencies import natural_frequencies
+from antinode.modes.kernel import shapes_for
+from antinode.modes.solve import solve_modes
 
 TOLERANCE = 1e-4
 _POINTS = 121

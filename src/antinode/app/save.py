@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from antinode.dataset import modal_table, to_json, write_result
-from antinode.loads_table import condition_dict, loads_summary
+from antinode.show.dataset import modal_table, to_json, write_result
+from antinode.show.loads_table import condition_dict, loads_summary
 
 from .compute import Picture
 from .state import State, plain, with_changes

@@ -10,11 +10,11 @@ import tempfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePath
 
-from antinode.beam_file import COLUMNS as BEAM_COLUMNS
-from antinode.case import COLUMNS as CASE_COLUMNS
+from antinode.beam.file import COLUMNS as BEAM_COLUMNS
 from antinode.errors import AntinodeError, InputError
 from antinode.examples import EXAMPLES, write_example
-from antinode.files import read_tables, read_toml
+from antinode.inputs.reading import read_tables, read_toml
+from antinode.vehicle.case import COLUMNS as CASE_COLUMNS
 
 from .state import File, State
 

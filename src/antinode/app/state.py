@@ -17,13 +17,13 @@ from typing import Any, Self
 
 import numpy as np
 
-from antinode.beam_file import BeamFile
-from antinode.case import Case
+from antinode.beam.file import BeamFile
+from antinode.beam.limits import check_limits
 from antinode.errors import InputError
-from antinode.explain import validate
-from antinode.files import naming
-from antinode.limits import check_limits
-from antinode.units import Frozen
+from antinode.inputs.explain import validate
+from antinode.inputs.reading import naming
+from antinode.inputs.units import Frozen
+from antinode.vehicle.case import Case
 
 from .display import System
 from .inputs import Problem

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from antinode.case import Case
 from antinode.errors import AntinodeError
-from antinode.files import COLUMN_UNITS
+from antinode.inputs.reading import COLUMN_UNITS
+from antinode.vehicle.case import Case
 
 from .display import System, shown_unit
 from .inputs import Problem

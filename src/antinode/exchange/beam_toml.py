@@ -14,11 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from antinode.attachments import Attachment, Joint, PointMass, Spring
-from antinode.beam import Array, Beam
-from antinode.beam_file import BeamFile
+from antinode.arrays import Array
+from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
+from antinode.beam.beam import Beam
+from antinode.beam.file import BeamFile
 from antinode.errors import InputError
-from antinode.explain import validate
+from antinode.inputs.explain import validate
 
 from .tabulated import Hull, Stations, tabulate
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import get_args
 
-from antinode.dataset import check_output
 from antinode.errors import InputError
+from antinode.show.dataset import check_output
 from antinode.text import nearest, one_line
 
 from .formats import INPUTS, OUTPUTS, Format, format_of
@@ -116,7 +116,7 @@ def _check(request: Request, how_in: Format, how_out: Format) -> None:
 
 
 def _solved(found: Found, number: int | None) -> Modes:
-    from antinode.modes import solve_modes
+    from antinode.modes.solve import solve_modes
 
     solve = found.solve.overridden(modes=number)
     result = solve_modes(found.beam, solve.modes, tolerance=solve.tolerance, unloaded=True)
@@ -125,7 +125,7 @@ def _solved(found: Found, number: int | None) -> Modes:
 
 def _convert_measurements(request: Request, how_out: Format) -> tuple[str, ...]:
     from .observation_rows import write_observations
-    from .uff_reader import read_measurements
+    from .uff.reader import read_measurements
 
     choices = request.choices
     rows, notes = read_measurements(request.source, choices.system, choices.plane)

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from antinode.beam import Beam
-from antinode.beam_file import BeamFile, Solve, load_beam
+from antinode.beam.beam import Beam
+from antinode.beam.file import BeamFile, Solve, load_beam
+from antinode.beam.limits import check_limits
 from antinode.errors import InputError
-from antinode.explain import validate
-from antinode.files import naming, read_toml
-from antinode.limits import check_limits
-from antinode.override import override
+from antinode.inputs.explain import validate
+from antinode.inputs.override import override
+from antinode.inputs.reading import naming, read_toml
 
 from .formats import Format
 from .station_csv import read_station_csv, without_hull
@@ -106,7 +106,7 @@ def _from_tables(
 
 def _from_toml(path: Path, assignments: Iterable[str]) -> Found:
     if "vehicle" in read_toml(path):
-        from antinode.case import load_case
+        from antinode.vehicle.case import load_case
 
         case = load_case(path, assignments)
         with naming(str(path)):
@@ -116,7 +116,7 @@ def _from_toml(path: Path, assignments: Iterable[str]) -> Found:
 
 
 def _from_nastran(path: Path, choices: Choices) -> Found:
-    from .nastran_reader import read_nastran
+    from .nastran.reader import read_nastran
 
     beam, notes = read_nastran(path, choices.system, choices.plane)
     if choices.assignments:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from antinode.result import COMPONENTS, ModalResult
+from antinode.modes.result import COMPONENTS, ModalResult
 
 from .tabulated import tabulate
 

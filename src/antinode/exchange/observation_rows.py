@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from antinode.dataset import to_json, write_text, write_whole
+from antinode.show.dataset import to_json, write_text, write_whole
 
 from .beam_toml import toml_text
 from .formats import Format

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from antinode.beam import Beam
-from antinode.dataset import check_output, modal_table, write_result, write_whole
+from antinode.beam.beam import Beam
 from antinode.extras import import_extra
-from antinode.result import ModalResult
+from antinode.modes.result import ModalResult
+from antinode.show.dataset import check_output, modal_table, write_result, write_whole
 
 from .formats import MODAL_ENDINGS, MODAL_FORMATS, Format, format_of
 from .tabulated import Hull
@@ -130,12 +130,12 @@ def _vtk(path: Path, result: ModalResult) -> Notes:
 
 
 def _uff(path: Path, result: ModalResult) -> Notes:
-    from .uff_writer import write_uff
+    from .uff.writer import write_uff
 
     return write_uff(path, result)
 
 
 def _nastran(path: Path, result: ModalResult, system: System) -> Notes:
-    from .nastran_writer import write_nastran
+    from .nastran.writer import write_nastran
 
     return write_nastran(path, result, system)

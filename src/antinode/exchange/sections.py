@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from antinode.beam import Array
+from antinode.arrays import Array
 from antinode.errors import InputError
-from antinode.files import MOST_ROWS, read_bytes
+from antinode.inputs.reading import MOST_ROWS, read_bytes
+from antinode.inputs.units import unit_factor
 from antinode.text import short
-from antinode.units import unit_factor
 
 MOST_BYTES = 20_000_000
 

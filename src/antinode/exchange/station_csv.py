@@ -13,9 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from antinode.beam import Array, Beam
-from antinode.beam_file import COLUMNS
-from antinode.files import COLUMN_UNITS, read_csv
+from antinode.arrays import Array
+from antinode.beam.beam import Beam
+from antinode.beam.file import COLUMNS
+from antinode.inputs.reading import COLUMN_UNITS, read_csv
 
 from .tabulated import HULL, Hull, Stations, tabulate
 

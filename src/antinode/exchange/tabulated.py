@@ -14,8 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from antinode.beam import Array, Beam, Interpolation
-from antinode.beam_file import COLUMNS
+from antinode.arrays import Array, Interpolation
+from antinode.beam.beam import Beam
+from antinode.beam.file import COLUMNS
 from antinode.text import counted
 
 JUMP = 1e-9

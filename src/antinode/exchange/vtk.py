@@ -14,8 +14,9 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from antinode.beam import Array, Beam
-from antinode.result import COMPONENTS, ModalResult, Mode
+from antinode.arrays import Array
+from antinode.beam.beam import Beam
+from antinode.modes.result import COMPONENTS, ModalResult, Mode
 
 LINE = 3
 """VTK's number for a cell of two points."""

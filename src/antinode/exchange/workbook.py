@@ -15,14 +15,14 @@ from typing import Any
 
 import numpy as np
 
-from antinode.beam import Beam
-from antinode.dataset import modal_table
+from antinode.beam.beam import Beam
 from antinode.errors import InputError
 from antinode.extras import import_extra
-from antinode.files import COLUMN_UNITS, MOST_ROWS, Row, read_bytes, station_columns
-from antinode.result import COMPONENTS, ModalResult
+from antinode.inputs.reading import COLUMN_UNITS, MOST_ROWS, Row, read_bytes, station_columns
+from antinode.inputs.units import unit_factor
+from antinode.modes.result import COMPONENTS, ModalResult
+from antinode.show.dataset import modal_table
 from antinode.text import nearest, short
-from antinode.units import unit_factor
 
 from .beam_toml import attachment_tables, beam_tables, head_tables
 from .station_csv import KNOWN, beam_table

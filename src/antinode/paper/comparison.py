@@ -16,16 +16,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from antinode.case import Case, load_case
+from antinode.arrays import Array
 from antinode.errors import ComputationError
-from antinode.loads_table import condition_dict
-from antinode.modes import solve_modes
+from antinode.modes.solve import solve_modes
+from antinode.show.loads_table import condition_dict
+from antinode.vehicle.case import Case, load_case
 
 from .tables import MODES, TABLES, Row, read_rows
-
-Array = npt.NDArray[np.float64]
 
 
 def example() -> Path:

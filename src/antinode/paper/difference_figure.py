@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from antinode.plot_style import GREY, zero_line
+from antinode.show.style import GREY, zero_line
 
 from .comparison import Comparison
 from .plates import BENDING, letter, sheet

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from antinode.plot_style import GREY, INK, zero_line
+from antinode.arrays import Array
 from antinode.riccati.chain import Family
 from antinode.riccati.literal import riccati_characteristic, tmm_characteristic
+from antinode.show.style import GREY, INK, zero_line
 
 from .plates import BENDING, letter, sheet
-from .scene import Array, Scene
+from .scene import Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from antinode.plot_style import PALETTE, WIDTH, pyplot, styled
-from antinode.svg import for_page
+from antinode.show.style import PALETTE, WIDTH, pyplot, styled
+from antinode.show.svg import for_page
 
 from .scene import Scene
 

@@ -6,16 +6,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
-from antinode.beam import Ends
-from antinode.case import Case
-from antinode.modes import solve_modes
-from antinode.result import ModalResult, Mode
+from antinode.arrays import Array
+from antinode.beam.ends import Ends
+from antinode.modes.result import ModalResult, Mode
+from antinode.modes.solve import solve_modes
+from antinode.vehicle.case import Case
 
 from .comparison import Comparison
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-from antinode.units import to_si
+from antinode.inputs.units import to_si
 
 MODES = 6
 BURN_FRACTION = {"t0": 0, "t10": 1}

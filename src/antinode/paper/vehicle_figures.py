@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from antinode.case import Case
-from antinode.figures import draw_vehicle
-from antinode.plot_style import GREY, INK, PALETTE, WIDTH, zero_line
+from antinode.arrays import Array
+from antinode.show.figures import draw_vehicle
+from antinode.show.style import GREY, INK, PALETTE, WIDTH, zero_line
+from antinode.vehicle.case import Case
 
 from .plates import letter, shades, sheet
-from .scene import Array, Scene, axial_force_curve
+from .scene import Scene, axial_force_curve
 from .tables import TABLES
 
 if TYPE_CHECKING:

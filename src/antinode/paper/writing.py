@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from antinode.errors import InputError
-from antinode.figures import pyplot
+from antinode.show.figures import pyplot
 
 from .comparison import Comparison
 from .gallery import PLATES

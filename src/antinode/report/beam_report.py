@@ -6,15 +6,15 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from antinode.beam import Beam
-from antinode.beam_file import BeamFile
-from antinode.buckling import buckling
-from antinode.figures import plot_beam
-from antinode.result import ModalResult
+from antinode.beam.beam import Beam
+from antinode.beam.file import BeamFile
+from antinode.modes.buckling import buckling
+from antinode.modes.result import ModalResult
+from antinode.show.figures import plot_beam
+from antinode.study.sensitivity.influence import beam_influences
 from antinode.text import counted
 
 from .blocks import Block, Document, Section, paragraph, runs, table
-from .influence import beam_influences
 from .influence_section import influence_section
 from .inputs import beam_inputs
 from .modal_sections import axial_section, drawn, frequency_section, result_in_brief

@@ -6,14 +6,14 @@ import shlex
 import time
 from pathlib import Path
 
-from antinode.beam_file import BeamFile, load_beam
-from antinode.case import Case, load_case
-from antinode.dataset import check_output
+from antinode.beam.file import BeamFile, load_beam
 from antinode.errors import InputError
-from antinode.files import read_toml
-from antinode.modes import solve_modes
-from antinode.outcome import print_json, say_written
-from antinode.result import ModalResult
+from antinode.inputs.reading import read_toml
+from antinode.modes.result import ModalResult
+from antinode.modes.solve import solve_modes
+from antinode.show.dataset import check_output
+from antinode.show.outcome import print_json, say_written
+from antinode.vehicle.case import Case, load_case
 
 from .beam_report import beam_report
 from .blocks import Document
@@ -89,8 +89,8 @@ def _of_study(
     tolerance: float | None,
     command: str,
 ) -> tuple[Document, list[str]]:
-    from antinode.study.store import import_store
-    from antinode.study.study_file import load_study
+    from antinode.study.sweep.file import load_study
+    from antinode.study.sweep.store import import_store
 
     from .study_report import study_report
 

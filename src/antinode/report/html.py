@@ -7,7 +7,7 @@ from typing import Any
 
 from antinode import __version__
 from antinode.extras import import_extra
-from antinode.svg import for_page
+from antinode.show.svg import for_page
 
 from .blocks import Document
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from antinode.study.sensitivity.influence import Influence
+
 from .blocks import Block, Section, paragraph, table
-from .influence import Influence
 from .numbers import signed
 
 _HOW = (

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
-from antinode.attachments import Attachment, Joint, PointMass, Spring, name_of
-from antinode.beam import Beam
-from antinode.beam_file import BeamFile
-from antinode.case import Case
+from antinode.beam.attachments import Attachment, Joint, PointMass, Spring, name_of
+from antinode.beam.beam import Beam
+from antinode.beam.file import BeamFile
+from antinode.vehicle.case import Case
 
 from .blocks import Block, Section, Table, bullets, paragraph, table
 from .numbers import number

@@ -8,10 +8,10 @@ from types import ModuleType
 
 import numpy as np
 
-from antinode.case import Case
-from antinode.hydrodynamics import cavitator, cavity, fins, planing
-from antinode.hydrodynamics.validity import Range, Validity
-from antinode.statics import static_shape
+from antinode.vehicle.case import Case
+from antinode.vehicle.hydrodynamics import cavitator, cavity, fins, planing
+from antinode.vehicle.hydrodynamics.validity import Range, Validity
+from antinode.vehicle.statics import static_shape
 
 from .blocks import Block, Section, paragraph, table
 from .numbers import number, small

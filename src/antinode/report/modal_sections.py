@@ -7,9 +7,9 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from antinode.buckling import Buckling
-from antinode.plot_style import pyplot, styled
-from antinode.result import ModalResult, Mode, hertz
+from antinode.modes.buckling import Buckling
+from antinode.modes.result import ModalResult, Mode, hertz
+from antinode.show.style import pyplot, styled
 
 from .blocks import Block, Figure, Section, Table, paragraph, runs, table
 from .numbers import apart, number, percent, small

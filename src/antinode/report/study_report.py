@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from antinode.study.design import Points, points_of
-from antinode.study.sensitivity import SensitivityResult, sensitivity
-from antinode.study.study_file import Study
-from antinode.study.sweep import sweep
-from antinode.study.sweep_figures import plot_sweep
-from antinode.study.sweep_report import summary
+from antinode.study.sensitivity.sensitivity import SensitivityResult, sensitivity
+from antinode.study.sweep.design import Points, points_of
+from antinode.study.sweep.figures import plot_sweep
+from antinode.study.sweep.file import Study
+from antinode.study.sweep.report import summary
+from antinode.study.sweep.sweep import sweep
 from antinode.text import counted
 
 from .blocks import Block, Document, Section, paragraph, runs, table

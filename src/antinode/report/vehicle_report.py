@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from antinode.buckling import buckling
-from antinode.case import Case
-from antinode.figures import case_title, plot_loads, plot_shapes
-from antinode.result import ModalResult
+from antinode.modes.buckling import buckling
+from antinode.modes.result import ModalResult
+from antinode.show.figures import case_title, plot_loads, plot_shapes
+from antinode.study.sensitivity.influence import case_influences
+from antinode.vehicle.case import Case
 
 from .blocks import Block, Document, Section, paragraph, runs, warnings
-from .influence import case_influences
 from .influence_section import influence_section
 from .inputs import case_inputs
 from .load_sections import load_sections

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from antinode.result import NOT_MODELLED
+from antinode.modes.result import NOT_MODELLED
 
 from .blocks import Block, Equation, Section, bullets, paragraph, runs, table
 

@@ -25,17 +25,11 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from .arrays import Array, Integers
 from .points import Point, StepKind, hold
-from .segment import (
-    LONGEST_STEP,
-    bending_transfer,
-    longitudinal_transfer,
-    wave_number,
-)
+from .segment import LONGEST_STEP, bending_transfer, longitudinal_transfer, wave_number
 
-Array = npt.NDArray[np.float64]
 Family = Literal["bending", "longitudinal"]
-Integers = npt.NDArray[np.int64]
 
 ZERO_COMPONENTS: dict[str, dict[str, list[int]]] = {
     "bending": {"free": [2, 3], "clamped": [0, 1], "pinned": [0, 2], "sliding": [1, 3]},

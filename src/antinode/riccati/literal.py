@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from .arrays import Array
 from .chain import (
     ZERO_COMPONENTS,
-    Array,
     Chain,
     evaluate,
     make_steps,

@@ -13,7 +13,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from .chain import Array, Chain, Evaluation, Integers, evaluate, omega2_scale
+from .arrays import Array, Integers
+from .chain import Chain, Evaluation, evaluate, omega2_scale
 
 _MAX_PASSES = 80
 _GUARD = 4  # equidistant samples inside every open bracket, each pass

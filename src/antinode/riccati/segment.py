@@ -19,9 +19,8 @@ import math
 from functools import cache
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from .arrays import Array
 
 LONGEST_STEP = 1.5
 """Largest wave number times length for which the series are meant, and used, here."""

@@ -14,10 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .arrays import Array, Integers
 from .chain import (
-    Array,
     Chain,
-    Integers,
     Steps,
     Sweep,
     block_starts,

@@ -8,7 +8,7 @@ import numpy as np
 
 from antinode.app.compute import Picture
 from antinode.app.display import System, shown_unit
-from antinode.beam import Beam
+from antinode.beam.beam import Beam
 
 from .numbers import pairs
 

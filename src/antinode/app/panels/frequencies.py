@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from antinode.app.compute import Picture
 from antinode.app.state import View
-from antinode.result import Mode, error_of_root, hertz
+from antinode.modes.result import Mode, error_of_root, hertz
 
 
 class Row(NamedTuple):

@@ -9,7 +9,7 @@ import numpy as np
 from antinode.app.compute import Picture
 from antinode.app.display import shown_unit
 from antinode.app.state import View
-from antinode.result import COMPONENTS
+from antinode.modes.result import COMPONENTS
 
 from .numbers import pairs, thinned
 

@@ -7,8 +7,8 @@ from typing import Any
 
 from antinode.app.compute import Picture
 from antinode.app.display import System, number_text, shown_unit
-from antinode.case import Case
-from antinode.hydrodynamics.validity import Validity
+from antinode.vehicle.case import Case
+from antinode.vehicle.hydrodynamics.validity import Validity
 
 
 def notes_data(picture: Picture, system: System) -> dict[str, Any]:

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from antinode.app.display import System, number_text, shown_unit
-from antinode.case import Case
-from antinode.vehicle import FinSet, Vehicle
+from antinode.vehicle.case import Case
+from antinode.vehicle.vehicle import FinSet, Vehicle
 
 from .numbers import pairs, short_list
 

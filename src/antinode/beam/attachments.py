@@ -1,0 +1,206 @@
+"""Point masses, springs, supports and in-line joints of a beam, gathered node by node."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.errors import InputError
+from antinode.riccati.chain import Family
+from antinode.riccati.points import Point
+
+APART = 1e-8
+"""Least distance of two supports over the length of the beam; nearer ones hold nothing between."""
+
+
+@dataclass(frozen=True)
+class PointMass:
+    """A rigid mass fixed to the beam.
+
+    Parameters
+    ----------
+    x : float
+        Station [m].
+    mass : float
+        [kg], positive.
+    rotary_inertia : float
+        About its own centre [kg m^2].
+    offset : float
+        Of its centre along +x from the station [m].
+    """
+
+    x: float
+    mass: float
+    rotary_inertia: float = 0.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Spring:
+    """Springs between the beam and the ground; infinite ones are supports.
+
+    Parameters
+    ----------
+    x : float
+        Station [m].
+    translational, axial : float
+        [N/m], zero or positive; `math.inf` holds Y, or X, at zero.
+    rotational : float
+        [N m/rad]; `math.inf` holds the slope at zero.
+    """
+
+    x: float
+    translational: float = 0.0
+    rotational: float = 0.0
+    axial: float = 0.0
+
+
+@dataclass(frozen=True)
+class Joint:
+    """An elastic joint in line with the beam.
+
+    Parameters
+    ----------
+    x : float
+        Station inside the span [m].
+    rotational : float
+        Compliance [rad/(N m)]: slope on the right less slope on the left, over the moment.
+    axial : float
+        Compliance [m/N].
+    """
+
+    x: float
+    rotational: float = 0.0
+    axial: float = 0.0
+
+
+Attachment = PointMass | Spring | Joint
+
+
+def check_attachments(attachments: Sequence[Attachment], x: Array) -> None:
+    """Raise InputError unless every attachment has values that make sense and lies on the beam."""
+    for item in attachments:
+        what = f"the {_NAMES[type(item)]} at x = {item.x:g} m"
+        if not x[0] <= item.x <= x[-1]:
+            raise InputError(f"{what} is off the beam, which runs from {x[0]:g} to {x[-1]:g} m")
+        for name, value in vars(item).items():
+            infinite = isinstance(item, Spring) and value == math.inf
+            if not (math.isfinite(value) or infinite) or (value < 0 and name not in _SIGNED):
+                raise InputError(f"{what}: {name} is {value:g}; it must be finite and at least 0")
+        if isinstance(item, Joint) and item.x in (x[0], x[-1]):
+            raise InputError(f"{what} stands at an end; a joint needs beam on both sides")
+    check_supports_apart(held_places(attachments), x)
+
+
+def held_places(attachments: Iterable[Attachment]) -> list[float]:
+    """Return where supports hold the beam sideways [m]."""
+    springs = (item for item in attachments if isinstance(item, Spring))
+    return [spring.x for spring in springs if spring.translational == math.inf]
+
+
+def check_supports_apart(places: Iterable[float], x: Array) -> None:
+    """Raise InputError if two places that hold the beam sideways all but coincide [m]."""
+    length = float(x[-1] - x[0])
+    for a, b in pairwise(sorted(set(places))):
+        if b - a < APART * length:
+            raise InputError(
+                f"the supports at x = {a:.15g} m and x = {b:.15g} m are {b - a:.2g} m apart; they "
+                f"must stand at one place, or at least {APART * length:.2g} m apart, {APART:g} of "
+                "the beam's length: give both the same x, or remove one"
+            )
+
+
+def name_of(item: Attachment) -> str:
+    """Return what an attachment is: a point mass, a spring, a support or a joint."""
+    if isinstance(item, Spring) and math.inf in (item.translational, item.rotational, item.axial):
+        return "support"
+    return _NAMES[type(item)]
+
+
+_UNITS: dict[type, dict[str, str]] = {
+    PointMass: {"mass": "kg", "rotary_inertia": "kg_m2", "offset": "m"},
+    Spring: {"translational": "N_per_m", "rotational": "N_m_per_rad", "axial": "N_per_m"},
+    Joint: {"rotational": "rad_per_N_m", "axial": "m_per_N"},
+}
+
+
+def attachment_dict(item: Attachment) -> dict[str, Any]:
+    """Return an attachment as plain numbers for JSON, units in the keys.
+
+    An infinite stiffness is null, and named under ``holds``.
+    """
+    values = {name: getattr(item, name) for name in _UNITS[type(item)]}
+    numbers = {
+        f"{name}_{_UNITS[type(item)][name]}": None if value == math.inf else value
+        for name, value in values.items()
+    }
+    held = [name for name, value in values.items() if value == math.inf]
+    more = {"holds": held} if isinstance(item, Spring) else {}
+    return {"kind": name_of(item), "x_m": item.x, **numbers, **more}
+
+
+_SIGNED = ("x", "offset")
+_NAMES = {PointMass: "point mass", Spring: "spring", Joint: "joint"}
+
+
+def gather(
+    attachments: Sequence[Attachment], x: Array, family: Family, acceleration: float
+) -> dict[int, Point]:
+    """Add up what sits at each breakpoint, as the solver's points.
+
+    Parameters
+    ----------
+    attachments : sequence of PointMass, Spring or Joint
+        At breakpoints.
+    x : array
+        Breakpoints [m].
+    family : {"bending", "longitudinal"}
+    acceleration : float
+        By which a mass m adds m a to N [m/s^2], through its centre; 0 leaves that moment out.
+
+    Returns
+    -------
+    dict
+        Point by index of the breakpoint, in order.
+    """
+    at: dict[int, list[Attachment]] = {}
+    for item in attachments:
+        at.setdefault(int(np.argmin(np.abs(x - item.x))), []).append(item)
+    points = {k: _point(k, at[k], family, acceleration) for k in sorted(at)}
+    return {k: p for k, p in points.items() if p.loads or p.holds or p.compliance}
+
+
+def _point(k: int, items: list[Attachment], family: Family, acceleration: float) -> Point:
+    springs = [item for item in items if isinstance(item, Spring)]
+    joints = [item for item in items if isinstance(item, Joint)]
+    masses = [item for item in items if isinstance(item, PointMass)]
+    mass = sum(m.mass for m in masses)
+    if family == "longitudinal":
+        k_a = sum(s.axial for s in springs)
+        return Point(
+            k,
+            mass=mass,
+            spring=0.0 if math.isinf(k_a) else k_a,
+            holds=(0,) if math.isinf(k_a) else (),
+            compliance=sum(j.axial for j in joints),
+        )
+    k_t, k_r = (sum(getattr(s, n) for s in springs) for n in ("translational", "rotational"))
+    offset = sum(m.mass * m.offset for m in masses) / mass if mass else 0.0
+    inertia = sum(m.rotary_inertia + m.mass * m.offset**2 for m in masses) - mass * offset**2
+    return Point(
+        k,
+        mass=mass,
+        offset=offset,
+        inertia=max(inertia, 0.0),
+        spring=0.0 if math.isinf(k_t) else k_t,
+        rotational_spring=0.0 if math.isinf(k_r) else k_r,
+        holds=tuple(i for i, stiffness in enumerate((k_t, k_r)) if math.isinf(stiffness)),
+        compliance=sum(j.rotational for j in joints),
+        own_load=acceleration * mass,
+    )

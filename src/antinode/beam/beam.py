@@ -1,0 +1,425 @@
+"""The beam: what every vibration problem of antinode becomes, and all that the solver needs.
+
+Properties are given on intervals between breakpoints by their values at both ends of the interval
+and vary between them linearly or logarithmically (the axial force always linearly). N > 0 is
+compression; x runs from the left end (the nose) to the right.
+
+A chain of uniform segments represents an interval exactly when nothing varies in it. Elsewhere each
+step is two uniform half-segments whose 1/EI, m and N are averages of the values at the two Gauss
+points with weights 1/2 +- sqrt(3)/3, the larger for the nearer point: fourth order in the step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.arrays import Array, Integers, Interpolation
+from antinode.errors import InputError
+from antinode.riccati.chain import Chain, Family
+from antinode.riccati.points import Point
+
+from .attachments import (
+    Attachment,
+    Joint,
+    PointMass,
+    check_attachments,
+    gather,
+)
+from .checks import TABLES, check, given
+from .ends import FREE, HOLDS, Ends, held_end
+from .representation import FAR, GAUSS, NEAR, coarsest_steps, copies
+
+
+@dataclass(frozen=True)
+class Beam:
+    """A straight non-uniform Euler-Bernoulli beam under static axial force.
+
+    Parameters
+    ----------
+    x : array, shape (n + 1,)
+        Breakpoints from left to right [m].
+    mass_per_length, bending_stiffness : array, shape (n, 2)
+        m [kg/m] and EI [N m^2] at the left and right end of every interval, positive.
+    axial_stiffness : array, shape (n, 2), optional
+        EA [N]; without it there are no longitudinal modes.
+    axial_force : array, shape (n, 2), optional
+        N [N], compression positive, linear in each interval; zero by default.
+    axial_acceleration : float
+        a [m/s^2] adds ``a * (mass left of x)`` to N: the inertia of a body that accelerates
+        towards -x, or weight that acts towards +x.
+    interpolation : {"step", "linear", "log"}
+        How m, EI, EA vary between the two values of an interval ("step": they are equal).
+    ends : Ends
+    radius_of_gyration : array, shape (n, 2), optional
+        Of the cross-section [m], for the estimate of shear and rotary inertia only; by default
+        sqrt(EI/EA).
+    attachments : tuple of PointMass, Spring and Joint
+        At breakpoints; `with_attachments` makes the breakpoints.
+    offset_weight : bool
+        Whether the part of N that the axial acceleration makes of an offset point mass acts
+        through its own centre, and so bends the beam when it turns.
+    name : str
+
+    Raises
+    ------
+    InputError
+        If shapes disagree, breakpoints do not increase, a property is not positive and finite, or
+        an attachment is not at a breakpoint.
+    """
+
+    x: Array
+    mass_per_length: Array
+    bending_stiffness: Array
+    axial_stiffness: Array | None = None
+    axial_force: Array = field(default_factory=lambda: np.zeros(0))
+    axial_acceleration: float = 0.0
+    interpolation: Interpolation = "step"
+    ends: Ends = FREE
+    radius_of_gyration: Array | None = None
+    attachments: tuple[Attachment, ...] = ()
+    offset_weight: bool = True
+    name: str = "beam"
+
+    def __post_init__(self) -> None:
+        if not len(self.axial_force):
+            object.__setattr__(self, "axial_force", np.zeros((len(self.x) - 1, 2)))
+        for name in ("x", *TABLES):
+            values = getattr(self, name)
+            if values is not None:
+                object.__setattr__(self, name, _own(values))
+        check(self)
+
+    @classmethod
+    def from_stations(
+        cls,
+        x: npt.ArrayLike,
+        mass_per_length: npt.ArrayLike,
+        bending_stiffness: npt.ArrayLike,
+        axial_stiffness: npt.ArrayLike | None = None,
+        axial_force: npt.ArrayLike | None = None,
+        *,
+        interpolation: Interpolation = "step",
+        ends: Ends | None = None,
+        radius_of_gyration: npt.ArrayLike | None = None,
+        name: str = "beam",
+    ) -> Beam:
+        """Build a beam from values at stations.
+
+        Parameters
+        ----------
+        x : array_like, shape (n + 1,)
+            Stations [m].
+        mass_per_length, bending_stiffness, axial_stiffness, axial_force, radius_of_gyration
+            Values at the stations, shape (n + 1,) [kg/m, N m^2, N, N, m]. With "step" row k holds
+            from x_k to x_k+1 and the last row only closes the table (shape (n,) is accepted too).
+        interpolation : {"step", "linear", "log"}
+        ends : Ends
+        name : str
+        """
+        stations = np.asarray(x, dtype=float)
+        intervals = len(stations) - 1
+
+        def between(values: npt.ArrayLike | None) -> Array | None:
+            """Return values at both ends of every interval, shape (n, 2)."""
+            if values is None:
+                return None
+            column = np.asarray(values, dtype=float)
+            if column.ndim == 0:
+                column = np.full(len(stations), column)
+            table = np.empty((intervals, 2))
+            right = column[:intervals] if interpolation == "step" else column[1:]
+            table[:, 0], table[:, 1] = column[:intervals], right
+            table.flags.writeable = False
+            return table
+
+        m, EI, EA, N, r = (
+            between(v)
+            for v in (
+                mass_per_length,
+                bending_stiffness,
+                axial_stiffness,
+                axial_force,
+                radius_of_gyration,
+            )
+        )
+        assert m is not None
+        assert EI is not None
+        return cls(
+            stations,
+            m,
+            EI,
+            EA,
+            N if N is not None else np.zeros(0),
+            interpolation=interpolation,
+            ends=ends or Ends(),
+            radius_of_gyration=r,
+            name=name,
+        )
+
+    @property
+    def length(self) -> float:
+        """Length [m]."""
+        return float(self.x[-1] - self.x[0])
+
+    @cached_property
+    def mass(self) -> float:
+        """Total mass [kg], point masses included."""
+        return float(self.mass_left[-1])
+
+    @cached_property
+    def mass_left(self) -> Array:
+        """Mass left of every breakpoint and at it [kg], shape (n + 1,)."""
+        whole = _partial_mass(self, np.arange(len(self.x) - 1), np.ones(len(self.x) - 1))
+        points = np.zeros(len(self.x))
+        for item in self.attachments:
+            if isinstance(item, PointMass):
+                points[self._breakpoint(item.x)] += item.mass
+        return np.concatenate([[0.0], np.cumsum(whole)]) + np.cumsum(points)
+
+    def mass_left_of(self, interval: Integers, fraction: Array) -> Array:
+        """Return the mass left of places inside intervals [kg]."""
+        return np.asarray(self.mass_left[interval] + _partial_mass(self, interval, fraction))
+
+    def _breakpoint(self, x: float) -> int:
+        return int(np.argmin(np.abs(self.x - x)))
+
+    @property
+    def axial_joint_compliance(self) -> Array:
+        """Axial compliance of the joints at every breakpoint [m/N], shape (n + 1,)."""
+        compliance = np.zeros(len(self.x))
+        for item in self.attachments:
+            if isinstance(item, Joint):
+                compliance[self._breakpoint(item.x)] += item.axial
+        return compliance
+
+    def with_breakpoints(self, positions: Sequence[float]) -> Beam:
+        """Return the same beam with breakpoints at the given positions [m] as well."""
+        inside = [p for p in positions if np.min(np.abs(self.x - p)) > 1e-12 * self.length]
+        if not inside:
+            return self
+        x = np.union1d(self.x, inside)
+        k = np.clip(np.searchsorted(self.x, (x[1:] + x[:-1]) / 2) - 1, 0, len(self.x) - 2)
+        size = np.diff(self.x)[k]
+        start, end = (x[:-1] - self.x[k]) / size, (x[1:] - self.x[k]) / size
+        linear = replace(self, interpolation="linear")
+        tables: dict[str, Any] = {}
+        for name in TABLES:
+            values = getattr(self, name)
+            how = linear if name == "axial_force" else self
+            if values is not None:
+                sides = (how.at(values, k, start), how.at(values, k, end))
+                tables[name] = np.stack(sides, axis=1)
+        return replace(self, x=x, **tables)
+
+    def with_attachments(self, *attachments: Attachment) -> Beam:
+        """Return the beam with point masses, springs and joints added, and breakpoints for them."""
+        check_attachments(attachments, self.x)
+        beam = self.with_breakpoints([item.x for item in attachments])
+        return replace(beam, attachments=(*self.attachments, *attachments))
+
+    @cached_property
+    def moment_of_inertia(self) -> float:
+        """Moment of inertia about the centre of mass [kg m^2], point masses included."""
+        points, weights = np.polynomial.legendre.leggauss(8)
+        k = np.arange(len(self.x) - 1)[:, None]
+        t = (points + 1) / 2
+        dm = (self.at(self.mass_per_length, k, t) * np.diff(self.x)[:, None] * weights / 2).ravel()
+        x = (self.x[:-1, None] + np.diff(self.x)[:, None] * t).ravel()
+        masses = [item for item in self.attachments if isinstance(item, PointMass)]
+        dm = np.append(dm, [item.mass for item in masses])
+        x = np.append(x, [item.x + item.offset for item in masses])
+        centre = np.sum(dm * x) / np.sum(dm)
+        own = sum(item.rotary_inertia for item in masses)
+        return float(np.sum(dm * (x - centre) ** 2)) + own
+
+    def at(self, values: Array, interval: Integers, fraction: Array) -> Array:
+        """Interpolate a property inside intervals, at fractions 0 ... 1 of their lengths."""
+        a, b = values[interval, 0], values[interval, 1]
+        if self.interpolation == "log":
+            return np.asarray(a * (b / a) ** fraction)
+        return np.asarray(a + (b - a) * fraction)
+
+    def axial_force_at(self, interval: Integers, fraction: Array) -> Array:
+        """Return N [N] inside intervals, at fractions 0 ... 1 of their lengths."""
+        table = self.axial_force[interval]
+        N = table[..., 0] + (table[..., 1] - table[..., 0]) * fraction
+        if self.axial_acceleration == 0.0:
+            return np.asarray(N)
+        return np.asarray(N + self.axial_acceleration * self.mass_left_of(interval, fraction))
+
+    @cached_property
+    def is_unloaded(self) -> bool:
+        """Whether no axial force acts anywhere."""
+        return self.axial_acceleration == 0.0 and not np.any(self.axial_force)
+
+    def without_axial_force(self) -> Beam:
+        """Return the same beam with N = 0 everywhere."""
+        return replace(self, axial_force=np.zeros_like(self.axial_force), axial_acceleration=0.0)
+
+    def reversed(self) -> Beam:
+        """Return the beam read from the other end (acceleration becomes part of the table)."""
+        if self.axial_acceleration:
+            raise InputError("a beam under acceleration cannot be reversed: tabulate N(x) instead")
+        flip: dict[str, Any] = {
+            name: None if (v := getattr(self, name)) is None else v[::-1, ::-1].copy()
+            for name in TABLES
+        }
+        e = self.ends
+        ends = Ends(e.right, e.left, e.right_axial, e.left_axial)
+        total = self.x[-1] + self.x[0]
+        items: list[Attachment] = []
+        for item in self.attachments:
+            turned = replace(item, x=total - item.x)
+            if isinstance(turned, PointMass):
+                turned = replace(turned, offset=-turned.offset)
+            items.append(turned)
+        return replace(
+            self, x=total - self.x[::-1], ends=ends, attachments=tuple(items[::-1]), **flip
+        )
+
+    def varies(self, family: Family) -> npt.NDArray[np.bool_]:
+        """Tell for each interval whether anything that the family sees varies inside it."""
+        tables = [self.mass_per_length]
+        if family == "longitudinal":
+            tables.append(given(self.axial_stiffness))
+            return np.asarray(np.any([t[:, 0] != t[:, 1] for t in tables], axis=0))
+        tables += [self.bending_stiffness, self.axial_force]
+        varying = np.full(len(self.x) - 1, self.axial_acceleration != 0.0)
+        for table in tables:
+            varying |= table[:, 0] != table[:, 1]
+        return varying
+
+    def chain(self, family: Family, refinement: int = 1) -> Chain:
+        """Represent the beam by uniform segments for one family of modes.
+
+        Parameters
+        ----------
+        family : {"bending", "longitudinal"}
+        refinement : int
+            Number by which the steps of the coarsest representation are divided; intervals in
+            which nothing varies stay whole: they are exact.
+
+        Returns
+        -------
+        Chain
+        """
+        varies = self.varies(family)
+        if not varies.any():
+            return self._uniform_chain(family)
+        cell, start, size = coarsest_steps(self, family)
+        times = np.where(varies[cell], refinement, 1)
+        which, number = copies(times)
+        interval, size = cell[which], (size / times)[which]
+        start = start[which] + number * size
+        halves = np.where(varies[interval], 2, 1)
+        step, second = copies(halves)
+        nearer = np.where(second == 1, FAR, NEAR)  # weight of the first Gauss point
+
+        def average(values: Callable[[Integers, Array], Array]) -> Array:
+            """Return weighted means of the values at the Gauss points, one for each segment."""
+            first, last = (values(interval, start + size * g)[step] for g in GAUSS)
+            return np.asarray(nearer * first + (1 - nearer) * last)
+
+        stiffness = self.bending_stiffness if family == "bending" else given(self.axial_stiffness)
+        first = np.concatenate([[0], np.cumsum(np.bincount(interval[step]))])
+        left, right, points = self.points(family, first)
+        return Chain(
+            points=points,
+            length=(np.diff(self.x)[interval] * size / halves)[step],
+            mass=average(lambda k, t: self.at(self.mass_per_length, k, t)),
+            stiffness=1.0 / average(lambda k, t: 1.0 / self.at(stiffness, k, t)),
+            axial_force=average(self.axial_force_at),
+            left=left,
+            right=right,
+            family=family,
+        )
+
+    def _uniform_chain(self, family: Family) -> Chain:
+        """Return one segment for every interval: nothing varies in any."""
+        stiffness = self.bending_stiffness if family == "bending" else given(self.axial_stiffness)
+        left, right, points = self.points(family)
+        tables = (self.mass_per_length, stiffness, self.axial_force)
+        m, EI, N = (np.ascontiguousarray(table[:, 0]) for table in tables)
+        return Chain(np.diff(self.x), m, EI, N, left, right, family, points)
+
+    def points(
+        self, family: Family, first: Integers | None = None
+    ) -> tuple[str, str, tuple[Point, ...]]:
+        """Return the ends with their supports, and the points at nodes of a chain.
+
+        `first` is the node of every breakpoint: its number, unless given.
+        """
+        if first is None:
+            first = np.arange(len(self.x))
+        acceleration = self.axial_acceleration if self.offset_weight else 0.0
+        points = gather(self.attachments, self.x, family, acceleration)
+        ends = list(self.ends.of(family))
+        for side, k in ((0, 0), (1, len(self.x) - 1)):
+            if k in points:
+                ends[side] = held_end(ends[side], points[k].holds, family)
+                points[k] = replace(points[k], holds=())
+        kept = tuple(replace(p, node=int(first[k])) for k, p in points.items())
+        return ends[0], ends[1], kept
+
+    def freedoms(self, family: Family) -> Array:
+        """Return the rigid motions that nothing holds.
+
+        Returns
+        -------
+        array, shape (freedoms, 2)
+            Rows [a, b] of motions ``a + b (x - x[0])``; longitudinally only [1, 0] can occur.
+        """
+        if family not in self._known_freedoms:
+            self._known_freedoms[family] = self._find_freedoms(family)
+        return self._known_freedoms[family]
+
+    @cached_property
+    def _known_freedoms(self) -> dict[Family, Array]:
+        return {}
+
+    def _find_freedoms(self, family: Family) -> Array:
+        rows = [np.zeros(2)]
+        left, right, points = self.points(family)
+        held = [(0.0, HOLDS[left]), (self.length, HOLDS[right])]
+        for point in points:
+            springs = (point.spring, point.rotational_spring)
+            all_held = {*point.holds, *(i for i, stiffness in enumerate(springs) if stiffness)}
+            held.append((float(self.x[point.node] - self.x[0]), tuple(all_held)))
+        if family == "longitudinal":
+            return np.zeros((0, 2)) if any(rows for _, rows in held) else np.array([[1.0, 0.0]])
+        for x, components in held:
+            rows += [np.array([1.0, x / self.length]) if c == 0 else _SLOPE for c in components]
+        _, size, basis = np.linalg.svd(np.array(rows))
+        rank = int(np.sum(size > 1e-9))
+        return np.asarray(basis[rank:] / np.array([1.0, self.length]))
+
+
+_SLOPE = np.array([0.0, 1.0])
+
+
+def _own(values: npt.ArrayLike) -> Array:
+    """Return a read-only array that nobody else can write to."""
+    if isinstance(values, np.ndarray) and values.dtype == np.float64:
+        kept: Array = values
+        if kept.base is None and not kept.flags.writeable:
+            return kept
+    own = np.array(values, dtype=float)
+    own.flags.writeable = False
+    return own
+
+
+def _partial_mass(beam: Beam, interval: Integers, fraction: Array) -> Array:
+    """Return the mass between the left end of an interval and a fraction of it [kg]."""
+    a, b = beam.mass_per_length[interval, 0], beam.mass_per_length[interval, 1]
+    h = np.diff(beam.x)[interval] * fraction
+    if beam.interpolation == "log":
+        rate = np.log(b / a) * fraction
+        mean = np.where(np.abs(rate) > 1e-12, np.expm1(rate) / np.where(rate == 0, 1, rate), 1.0)
+        return np.asarray(a * h * mean)
+    return np.asarray(h * (a + (b - a) * fraction / 2))

@@ -1,0 +1,213 @@
+"""The beam file: a beam given by stations in TOML, checked and turned into a `Beam`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from antinode.arrays import Array, Interpolation
+from antinode.errors import InputError
+from antinode.inputs.columns import Column, with_closed_stations
+from antinode.inputs.explain import validate
+from antinode.inputs.reading import naming, read_tables
+from antinode.inputs.units import Frozen, Number
+from antinode.text import counted
+
+from .axial import apply_loads
+from .beam import Beam
+from .ends import AxialEnd, End, Ends
+from .limits import check_limits
+from .mass import MassTable, check_on_body
+from .tables import AttachmentTables
+
+COLUMNS = (
+    "x",
+    "mass_per_length",
+    "bending_stiffness",
+    "axial_stiffness",
+    "axial_force",
+    "radius_of_gyration",
+)
+
+
+class Solve(Frozen):
+    """What to compute, and how well."""
+
+    modes: int = Field(6, ge=1, le=500, strict=True, description="elastic modes of each family")
+    tolerance: Annotated[Number, Field(ge=1e-12, le=0.1)] = Field(
+        1e-6, description="largest relative error of a frequency by what varies inside segments"
+    )
+
+    def overridden(self, **given: float | None) -> Solve:
+        """Return the settings with those of the command line that are given.
+
+        Raises
+        ------
+        InputError
+            If one of them is out of range.
+        """
+        told = {key: value for key, value in given.items() if value is not None}
+        return validate(Solve, self.model_dump() | told, "command line")
+
+
+class BeamEnds(Frozen):
+    """How the ends are held."""
+
+    left: End = Field("free", description="how the end at the smallest x is held sideways")
+    right: End = Field("free", description="how the end at the largest x is held sideways")
+    left_axial: AxialEnd | None = Field(
+        None, description="how the left end is held axially; fixed if clamped or pinned, else free"
+    )
+    right_axial: AxialEnd | None = Field(
+        None, description="how the right end is held axially; fixed if clamped or pinned, else free"
+    )
+
+
+class BeamStations(Frozen):
+    """The table along the beam; rows count from 1."""
+
+    x: Annotated[Array, Column("m")] = Field(description="position [m], increasing")
+    mass_per_length: Annotated[Array, Column("kg/m")] = Field(description="m [kg/m]")
+    bending_stiffness: Annotated[Array, Column("N m^2")] = Field(description="EI [N m^2]")
+    axial_stiffness: Annotated[Array, Column("N")] | None = Field(
+        None, description="EA [N]; without it there are no longitudinal modes"
+    )
+    axial_force: Annotated[Array, Column("N")] | None = Field(
+        None, description="N [N], compression positive; zero by default"
+    )
+    radius_of_gyration: Annotated[Array, Column("m")] | None = Field(
+        None,
+        description="of the cross-section [m], for the effect of rotary inertia; default "
+        "sqrt(EI/EA)",
+    )
+
+    @model_validator(mode="after")
+    def _check_table(self) -> Self:
+        _check_positions(self.x)
+        for name in COLUMNS[1:]:
+            column = getattr(self, name)
+            if column is not None:
+                _check_column(name, column, len(self.x))
+        return self
+
+
+def _check_positions(x: Array) -> None:
+    if len(x) < 2:
+        raise ValueError(f"x has {counted(len(x), 'row')}; a table of stations needs at least two")
+    for i in np.flatnonzero(~np.isfinite(x))[:1]:
+        raise ValueError(f"x, row {i + 1}, is {x[i]}; it must be a finite number: correct this row")
+    for i in np.flatnonzero(np.diff(x) <= 0)[:1]:
+        step = "remove one of the duplicate rows" if x[i] == x[i + 1] else "sort the rows by x"
+        raise ValueError(
+            f"x must increase: row {i + 1} has {x[i]:.10g} m and row {i + 2} {x[i + 1]:.10g} m; "
+            f"{step}"
+        )
+
+
+def _check_column(name: str, column: Array, rows: int) -> None:
+    if len(column) != rows:
+        raise ValueError(
+            f"{name} has {counted(len(column), 'row')}, but x has {rows}: give one value a row"
+        )
+    ok = np.isfinite(column) & ((column > 0) | (name == "axial_force"))
+    for i in np.flatnonzero(~ok)[:1]:
+        allowed = "a finite number" if name == "axial_force" else "greater than 0 and finite"
+        raise ValueError(
+            f"{name}, row {i + 1}, is {column[i]:.10g}; it must be {allowed}: correct this row"
+        )
+
+
+class BeamTable(AttachmentTables):
+    """The table `[beam]`."""
+
+    name: str = Field("beam", max_length=200, description="shown in tables and figures")
+    interpolation: Interpolation = Field(
+        "step", description="how columns run between stations; axial_force linearly unless 'step'"
+    )
+    stations: BeamStations = Field(description="table along the beam, or the name of a CSV file")
+    ends: BeamEnds = Field(BeamEnds(), description="how the ends are held")
+    masses: tuple[MassTable, ...] = Field(
+        (), description="parts whose mass adds to the stations' (tank, engine, lining)"
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _close_table(cls, data: Any) -> Any:
+        return with_closed_stations(data)
+
+    @model_validator(mode="after")
+    def _check_masses(self) -> Self:
+        x = self.stations.x
+        check_on_body(self.masses, float(x[0]), float(x[-1]), self.interpolation)
+        return self
+
+
+class BeamFile(Frozen):
+    """A beam file with everything in it."""
+
+    table: BeamTable = Field(alias="beam", description="the beam itself")
+    solve: Solve = Field(Solve(), description="what to compute, and how well")
+
+    def beam(self) -> Beam:
+        """Return the beam that the file describes."""
+        table, stations = self.table, self.table.stations
+        beam = Beam.from_stations(
+            stations.x,
+            stations.mass_per_length,
+            stations.bending_stiffness,
+            stations.axial_stiffness,
+            stations.axial_force,
+            interpolation=table.interpolation,
+            ends=Ends(**table.ends.model_dump()),
+            radius_of_gyration=stations.radius_of_gyration,
+            name=table.name,
+        ).with_attachments(*table.attachments())
+        for part in table.masses:
+            beam = _with_part(beam, part)
+        return beam if table.loads is None else apply_loads(beam, table.loads.loads())
+
+
+def _with_part(beam: Beam, part: MassTable) -> Beam:
+    """Return the beam with the mass of a part added."""
+    beam = beam.with_breakpoints(part.x.tolist())
+    linear = part.interpolation == "linear"
+    return replace(
+        beam,
+        mass_per_length=beam.mass_per_length + part.distribution().between(beam.x),
+        interpolation="linear" if linear else beam.interpolation,
+    )
+
+
+def load_beam(path: str | Path, assignments: Iterable[str] = ()) -> BeamFile:
+    """Read a beam file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A TOML file.
+    assignments : iterable of str
+        Overrides such as ``"beam.ends.left=clamped"``.
+
+    Returns
+    -------
+    BeamFile
+        Its `beam()` is what `solve_modes` wants.
+
+    Raises
+    ------
+    InputError
+        If anything in it is wrong.
+    """
+    path = Path(path)
+    tables, where, elsewhere = read_tables(path, assignments, "beam", COLUMNS)
+    if "vehicle" in tables and "beam" not in tables:
+        raise InputError(f"{path}: this is a vehicle's case; use 'antinode modes {path}'")
+    file = validate(BeamFile, tables, where, elsewhere)
+    with naming(where):
+        check_limits(file.beam())
+    return file

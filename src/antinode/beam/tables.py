@@ -1,0 +1,116 @@
+"""The tables of a beam file for what is attached to the beam and what loads it axially."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+from pydantic import ConfigDict, Field, model_validator
+
+from antinode.inputs.units import Acceleration, Force, Frozen, Length, Mass, Unit
+
+from .attachments import Attachment, Joint, PointMass, Spring
+from .axial import AxialLoads, PointForce
+
+AxialStiffness = Annotated[float, Unit("N/m"), Field(ge=0)]
+RotationalStiffness = Annotated[float, Unit("N m/rad"), Field(ge=0)]
+
+
+class PointMassTable(Frozen):
+    """A rigid mass fixed to the beam: `[[beam.point_masses]]`."""
+
+    x: Length = Field(description="station [m]")
+    mass: Annotated[Mass, Field(gt=0)] = Field(description="mass [kg]")
+    rotary_inertia: Annotated[float, Unit("kg m^2"), Field(ge=0)] = Field(
+        0.0, description="about its own centre [kg m^2]"
+    )
+    offset: Length = Field(0.0, description="of its centre along +x from the station [m]")
+
+    def attachment(self) -> PointMass:
+        """Return it as the beam wants it."""
+        return PointMass(self.x, self.mass, self.rotary_inertia, self.offset)
+
+
+class SpringTable(Frozen):
+    """Springs to the ground; inf is a support: `[[beam.springs]]`."""
+
+    model_config = ConfigDict(allow_inf_nan=True)
+
+    x: Annotated[Length, Field(allow_inf_nan=False)] = Field(description="station [m]")
+    translational: AxialStiffness = Field(0.0, description="lateral [N/m]; inf holds it")
+    rotational: RotationalStiffness = Field(0.0, description="[N m/rad]; inf holds the slope")
+    axial: AxialStiffness = Field(0.0, description="along the axis [N/m]; inf holds it")
+
+    @model_validator(mode="after")
+    def _check_any(self) -> Self:
+        if not (self.translational or self.rotational or self.axial):
+            raise ValueError(
+                "all stiffnesses are 0; give translational, rotational or axial, inf for a support"
+            )
+        return self
+
+    def attachment(self) -> Spring:
+        """Return it as the beam wants it."""
+        return Spring(self.x, self.translational, self.rotational, self.axial)
+
+
+class JointTable(Frozen):
+    """An elastic joint in line with the beam: `[[beam.joints]]`."""
+
+    x: Length = Field(description="station inside the span [m]")
+    rotational: Annotated[float, Unit("rad/(N m)"), Field(ge=0)] = Field(
+        0.0, description="compliance: change of slope over moment [rad/(N m)]"
+    )
+    axial: Annotated[float, Unit("m/N"), Field(ge=0)] = Field(
+        0.0, description="compliance along the axis [m/N]"
+    )
+
+    def attachment(self) -> Joint:
+        """Return it as the beam wants it."""
+        return Joint(self.x, self.rotational, self.axial)
+
+
+class PointForceTable(Frozen):
+    """An axial force at a station."""
+
+    x: Length = Field(description="station [m]")
+    force: Force = Field(description="along +x [N]")
+
+
+class LoadsTable(Frozen):
+    """Axial loads; their N adds to the stations' axial_force: `[beam.loads]`."""
+
+    gravity: Acceleration = Field(
+        0.0, description="body force per mass along +x [m/s^2]; -9.80665 for a tower from its base"
+    )
+    acceleration: Acceleration = Field(
+        0.0, description="of the axial supports along +x [m/s^2]; a free beam's follows"
+    )
+    point_forces: tuple[PointForceTable, ...] = Field((), description="axial forces at stations")
+    offset_weight: bool = Field(
+        True,
+        description="whether weight and inertia of an offset mass act through its centre, and so "
+        "bend the beam when it turns",
+    )
+
+    def loads(self) -> AxialLoads:
+        """Return them as the statics want them."""
+        forces = tuple(PointForce(f.x, f.force) for f in self.point_forces)
+        return AxialLoads(self.gravity, self.acceleration, forces, self.offset_weight)
+
+
+class AttachmentTables(Frozen):
+    """What a beam carries and how it is loaded; the base of the table `[beam]`."""
+
+    point_masses: tuple[PointMassTable, ...] = Field((), description="rigid masses")
+    springs: tuple[SpringTable, ...] = Field((), description="springs and supports to ground")
+    joints: tuple[JointTable, ...] = Field((), description="elastic joints in line")
+    loads: LoadsTable | None = Field(None, description="axial loads")
+
+    def attachments(self) -> list[Attachment]:
+        """Return all masses, springs and joints as the beam wants them."""
+        tables: tuple[PointMassTable | SpringTable | JointTable, ...] = (
+            *self.point_masses,
+            *self.springs,
+            *self.joints,
+        )
+        return [table.attachment() for table in tables]

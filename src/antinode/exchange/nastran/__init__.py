@@ -1,0 +1,1 @@
+"""NASTRAN decks: cards -> model -> line -> properties, attached, preload -> beam; and back."""

@@ -1,0 +1,1 @@
+"""Universal files: measured modes and frequency responses in, modes out."""

@@ -1,0 +1,1 @@
+"""From a beam to certified frequencies, modes, batches of them, and buckling."""

@@ -1,0 +1,303 @@
+"""What a modal solution is: named modes with certificates, errors and shapes; immutable."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.arrays import Array
+from antinode.beam.attachments import attachment_dict
+from antinode.beam.beam import Beam
+from antinode.errors import InputError
+from antinode.riccati.chain import Chain, Family
+from antinode.riccati.shapes import propagate
+
+if TYPE_CHECKING:
+    import xarray
+
+Kind = Literal["rigid", "elastic", "divergent"]
+Method = Literal["riccati", "tmm"]
+Normalisation = Literal["amplitude", "mass"]
+
+COMPONENTS: dict[str, tuple[tuple[str, str, str], ...]] = {
+    "bending": (
+        ("Y", "m", "lateral displacement"),
+        ("theta", "rad", "slope"),
+        ("M", "N m", "bending moment EI Y''"),
+        ("Q_y", "N", "lateral force M' + N Y'"),
+    ),
+    "longitudinal": (("X", "m", "axial displacement"), ("Q_x", "N", "compressive force -EA X'")),
+}
+"""Symbol, unit and meaning of the state components of each family (equation 56)."""
+
+NOT_MODELLED = (
+    "shear deformation and rotary inertia (their effect is estimated to first order)",
+    "added mass of wetted parts",
+    "damping",
+    "shell modes of the wall",
+    "end forces that turn with the body (follower thrust)",
+)
+"""What the model leaves out, always."""
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One natural mode with its certificate.
+
+    Attributes
+    ----------
+    family : {"bending", "longitudinal"}
+    number : int
+        1, 2, ... in order of omega^2; 0 for a rigid mode.
+    name : str
+        ``"bending 1"``, ``"rigid rotation"``, ...
+    kind : {"rigid", "elastic", "divergent"}
+        Divergent where omega^2 < 0: the motion grows instead of vibrating.
+    omega2 : float
+        [rad^2/s^2].
+    bracket_omega2 : tuple of float
+        Encloses the eigenvalue of the segment chain, rounding included [rad^2/s^2].
+    counts : tuple of int
+        How many eigenvalues lie below either end of the bracket, or -1 where nothing is certified.
+    error_omega2 : float
+        Distance to the eigenvalue of the beam as given [rad^2/s^2]: that to the bracket's end,
+        which is certain, and the estimated error of representing what varies by uniform segments.
+    modal_mass : float
+        Integral of m Y^2 for the shape as normalised [kg m^2 / m^2].
+    residual : float
+        Relative difference of the Rayleigh quotient of the shape from omega2.
+    model_error : float or None
+        First-order relative effect of shear and rotary inertia on the frequency (negative: they
+        lower it); None where the beam does not tell, and for rigid modes.
+    unloaded_omega2 : float or None
+        omega^2 of the same mode without axial force, where it was asked for.
+    states : array, shape (points, 4) or (points, 2)
+        Along `ModalResult.x`: Y, theta, M, Q_y or X, Q_x.
+    """
+
+    family: Family
+    number: int
+    name: str
+    kind: Kind
+    omega2: float
+    bracket_omega2: tuple[float, float]
+    counts: tuple[int, int]
+    error_omega2: float
+    modal_mass: float
+    residual: float
+    model_error: float | None
+    states: Array = field(repr=False)
+    unloaded_omega2: float | None = None
+
+    @property
+    def frequency_hz(self) -> float:
+        """Natural frequency [Hz]; NaN for omega^2 < 0."""
+        return hertz(self.omega2)
+
+    @property
+    def growth_rate_per_s(self) -> float:
+        """Rate at which a divergent motion grows [1/s]; NaN for omega^2 >= 0."""
+        return math.sqrt(-self.omega2) if self.omega2 < 0 else math.nan
+
+    @property
+    def bracket_hz(self) -> tuple[float, float]:
+        """The bracket in frequency [Hz]; NaN where omega^2 < 0, from 0 where it encloses zero."""
+        low, high = self.bracket_omega2
+        return hertz(max(low, 0.0) if high > 0 else low), hertz(high)
+
+    @property
+    def error_hz(self) -> float:
+        """Half-width of the interval of frequency that holds the beam's own [Hz]."""
+        if self.omega2 < 0:
+            return math.nan
+        return error_of_root(self.omega2, self.error_omega2) / (2 * math.pi)
+
+    @property
+    def error_growth_rate_per_s(self) -> float:
+        """The same for the growth rate of a divergent mode [1/s]."""
+        return error_of_root(-self.omega2, self.error_omega2) if self.omega2 < 0 else math.nan
+
+    @property
+    def shift(self) -> float:
+        """Relative change of the frequency by the axial force; NaN if unknown or not elastic."""
+        if self.unloaded_omega2 is None or self.kind != "elastic" or self.unloaded_omega2 <= 0:
+            return math.nan
+        return math.sqrt(self.omega2 / self.unloaded_omega2) - 1
+
+    @property
+    def shape(self) -> Array:
+        """Displacement Y or X along `ModalResult.x`, shape (points,)."""
+        return np.asarray(self.states[:, 0])
+
+
+def hertz(omega2: float) -> float:
+    """Return the frequency [Hz] that belongs to omega^2 [rad^2/s^2]; NaN if negative."""
+    return math.sqrt(omega2) / (2 * math.pi) if omega2 >= 0 else math.nan
+
+
+def error_of_root(square: float, error: float) -> float:
+    """Return the largest distance of sqrt(square +- error) from sqrt(square), square >= 0."""
+    root = math.sqrt(square)
+    return (
+        max(root - math.sqrt(max(square - error, 0.0)), error / (root + math.sqrt(square + error)))
+        if error
+        else 0.0
+    )
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The modes of one family along the chain that was solved: exact between its nodes.
+
+    Attributes
+    ----------
+    chain : Chain
+        Uniform segments, from x = 0.
+    omega2 : array, shape (k,)
+        [rad^2/s^2], of the modes in their order.
+    states : array, shape (n + 1, k, s)
+        At the nodes, SI, as normalised.
+    """
+
+    chain: Chain
+    omega2: Array
+    states: Array = field(repr=False)
+
+    def at(self, x: Array) -> Array:
+        """Return the states at positions from the left end [m], shape (points, k, s)."""
+        nodes = self.chain.nodes
+        segment = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, len(nodes) - 2)
+        start = self.states[segment]
+        return propagate(self.chain, start, self.omega2, x - nodes[segment], segment)
+
+
+@dataclass(frozen=True)
+class ModalResult:
+    """The modes of a beam, in order of family and omega^2.
+
+    Attributes
+    ----------
+    beam : Beam
+    modes : tuple of Mode
+    x : array, shape (points,)
+        Where the shapes are given [m].
+    method, tolerance, normalisation
+        As asked for.
+    segments : dict
+        Number of uniform segments that represent the beam, by family.
+    solutions : dict
+        The `Solution` of each family, which `at` evaluates.
+    warnings : tuple of str
+        What a user should know before trusting the numbers, and what to do about it.
+    """
+
+    beam: Beam
+    modes: tuple[Mode, ...]
+    x: Array = field(repr=False)
+    method: Method
+    tolerance: float
+    normalisation: Normalisation
+    segments: dict[str, int]
+    solutions: dict[Family, Solution] = field(repr=False)
+    warnings: tuple[str, ...]
+
+    def __str__(self) -> str:
+        lines = [f"{self.beam.name}: {len(self.modes)} modes"]
+        for mode in self.modes:
+            value = (
+                f"{mode.frequency_hz:12.6g} Hz +- {mode.error_hz:.1e}"
+                if mode.omega2 >= 0
+                else f"grows at {mode.growth_rate_per_s:.6g} 1/s"
+            )
+            lines.append(f"  {mode.name:<20} {mode.kind:<10} {value}")
+        return "\n".join([*lines, *(f"  warning: {w}" for w in self.warnings)])
+
+    def family(self, family: Family) -> tuple[Mode, ...]:
+        """Return the modes of one family."""
+        return tuple(mode for mode in self.modes if mode.family == family)
+
+    def mode(self, family: Family, number: int) -> Mode:
+        """Return an elastic or divergent mode by its family and number."""
+        for mode in self.modes:
+            if (mode.family, mode.number) == (family, number):
+                return mode
+        have = ", ".join(m.name for m in self.modes if m.number)
+        raise InputError(f"there is no mode {family} {number} in this result; it has {have}")
+
+    def at(self, x: npt.ArrayLike, family: Family = "bending") -> Array:
+        """Evaluate the modes of a family anywhere along the beam.
+
+        Parameters
+        ----------
+        x : array_like, shape (points,)
+            Positions [m] on the beam.
+        family : {"bending", "longitudinal"}
+
+        Returns
+        -------
+        array, shape (points, modes, 4) or (points, modes, 2)
+            Y, theta, M, Q_y or X, Q_x of every mode of `ModalResult.family`, exact for the chain.
+        """
+        points = np.atleast_1d(np.asarray(x, dtype=float)) - self.beam.x[0]
+        if np.any((points < 0) | (points > self.beam.length * (1 + 1e-12))):
+            low, high = self.beam.x[0], self.beam.x[-1]
+            raise InputError(f"x must lie on the beam, from {low:g} to {high:g} m")
+        return self.solutions[family].at(points)
+
+    def frequencies_hz(self, family: Family = "bending") -> Array:
+        """Return the frequencies of modes 1, 2, ... of a family [Hz], NaN where divergent."""
+        return np.array([m.frequency_hz for m in self.family(family) if m.number])
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain numbers for JSON, without the shapes."""
+        return {
+            "schema_version": 1,
+            "name": self.beam.name,
+            "attachments": [attachment_dict(item) for item in self.beam.attachments],
+            "modes": [_mode_dict(mode) for mode in self.modes],
+            "method": self.method,
+            "tolerance": self.tolerance,
+            "segments": dict(self.segments),
+            "warnings": list(self.warnings),
+            "not_modelled": list(NOT_MODELLED),
+        }
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the result as a labelled xarray Dataset with units in every variable's attrs."""
+        from antinode.show.dataset import modal_dataset
+
+        return modal_dataset(self)
+
+
+def _mode_dict(mode: Mode) -> dict[str, Any]:
+    return {
+        "family": mode.family,
+        "number": mode.number,
+        "name": mode.name,
+        "kind": mode.kind,
+        "frequency_hz": null(mode.frequency_hz),
+        "error_hz": null(mode.error_hz),
+        "bracket_hz": [null(v) for v in mode.bracket_hz],
+        "omega2": mode.omega2,
+        "bracket_omega2": list(mode.bracket_omega2),
+        "counts": list(mode.counts),
+        "error_omega2": mode.error_omega2,
+        "growth_rate_per_s": null(mode.growth_rate_per_s),
+        "error_growth_rate_per_s": null(mode.error_growth_rate_per_s),
+        "unloaded_frequency_hz": null(hertz(mode.unloaded_omega2))
+        if mode.unloaded_omega2 is not None
+        else None,
+        "shift": null(mode.shift),
+        "model_error": mode.model_error,
+        "modal_mass": mode.modal_mass,
+        "residual": mode.residual,
+    }
+
+
+def null(value: float) -> float | None:
+    """Return None for NaN, as JSON wants it."""
+    return None if math.isnan(value) else value

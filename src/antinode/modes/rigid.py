@@ -1,0 +1,64 @@
+"""Rigid modes: which the supports leave, which are at zero, and their shapes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.beam.beam import Beam
+from antinode.beam.ends import Ends
+from antinode.riccati.chain import Chain, Family
+
+
+def rigid_modes(beam: Beam, family: Family) -> tuple[str, ...]:
+    """Return the names of the rigid modes that the supports leave, e.g. translation, rotation."""
+    freedoms = beam.freedoms(family)
+    if len(freedoms) == 2:
+        return "translation", "rotation"
+    return tuple("translation" if _is_translation(row, beam) else "rotation" for row in freedoms)
+
+
+def _is_translation(freedom: Array, beam: Beam) -> bool:
+    return bool(abs(freedom[1]) * beam.length < 1e-9 * abs(freedom[0]))
+
+
+def exact_zeros(beam: Beam, family: Family) -> int:
+    """Return how many rigid modes have omega^2 = 0 exactly: translation, and all without N."""
+    rigid = rigid_modes(beam, family)
+    if family == "bending" and not beam.is_unloaded:
+        return int("translation" in rigid)
+    return len(rigid)
+
+
+def rigid_state(beam: Beam, chain: Chain, name: str) -> Array:
+    """Return the state of a rigid mode at omega^2 = 0, shape (nodes, s)."""
+    state = np.zeros((len(chain.length) + 1, 4 if chain.family == "bending" else 2))
+    if name == "rigid translation":
+        state[:, 0] = 1.0
+        return state
+    freedoms = beam.freedoms("bending")
+    held = len(freedoms) == 1
+    pivot = -freedoms[0, 0] / freedoms[0, 1] if held else _centre_of_mass(chain)
+    state[:, 0], state[:, 1] = chain.nodes - pivot, 1.0
+    return state
+
+
+def _centre_of_mass(chain: Chain) -> float:
+    """Return the centre of all mass of a chain, from its left end [m]."""
+    nodes = chain.nodes
+    middle, dm = (nodes[1:] + nodes[:-1]) / 2, chain.mass * chain.length
+    masses = np.array([p.mass for p in chain.points])
+    places = np.array([nodes[p.node] + p.offset for p in chain.points])
+    return float((dm @ middle + masses @ places) / (np.sum(dm) + np.sum(masses)))
+
+
+def translates(ends: Ends) -> bool:
+    """Tell whether the ends leave the beam free to move sideways."""
+    return not {ends.left, ends.right} & {"clamped", "pinned"}
+
+
+def rigid_modes_of(ends: Ends) -> int:
+    """Return how many rigid modes the ends leave: the index of the last one."""
+    held = [end in ("clamped", "pinned") for end in (ends.left, ends.right)]
+    turned = [end in ("clamped", "sliding") for end in (ends.left, ends.right)]
+    return 2 - min(2, sum(held) + any(turned))

@@ -1,0 +1,194 @@
+"""Natural frequencies and modes of a beam: certified, named, with error bounds and shapes.
+
+    result = solve_modes(beam, modes=6)
+
+Bending and longitudinal vibration are solved apart. Rigid modes are set aside by their index among
+the eigenvalues, never because they look small; the others are numbered 1, 2, ... in order of
+omega^2, whatever its sign.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Protocol
+
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.beam.beam import Beam
+from antinode.beam.limits import out_of_range_is_an_error
+from antinode.errors import ComputationError, InputError
+from antinode.riccati.chain import Family, omega2_scale
+
+from .kernel import shapes_for
+from .naming import name_modes, with_joint_brackets
+from .refinement import ROUNDING, Solved, solve_family
+from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
+from .shapes import estimate_model_errors, normalising_factors, on_grid, output_grid, shapes
+from .warnings import result_warnings
+
+FAMILIES: tuple[Family, ...] = ("bending", "longitudinal")
+
+
+class HasBeam(Protocol):
+    """Anything that can be turned into a beam, such as a case of a vehicle in a condition."""
+
+    def beam(self) -> Beam:
+        """Return the beam."""
+        ...
+
+
+@out_of_range_is_an_error()
+def solve_modes(
+    problem: Beam | HasBeam,
+    modes: int = 6,
+    *,
+    tolerance: float = 1e-6,
+    families: Sequence[Family] | None = None,
+    method: Method = "riccati",
+    normalisation: Normalisation = "amplitude",
+    unloaded: bool = False,
+) -> ModalResult:
+    """Compute natural frequencies, modes and internal-force modes of a beam.
+
+    Parameters
+    ----------
+    problem : Beam or case
+        A beam, or anything with a method ``beam()``.
+    modes : int
+        Elastic modes 1 ... `modes` of each family; rigid and divergent ones always come along.
+    tolerance : float
+        Largest relative error of a frequency that is allowed to what varies inside segments.
+    families : sequence of {"bending", "longitudinal"}, optional
+        Default: both, or bending alone where the beam has no axial stiffness.
+    method : {"riccati", "tmm"}
+        "tmm" scans the determinant of equation 66 instead: for comparison, without a certificate.
+    normalisation : {"amplitude", "mass"}
+        Largest displacement 1, or unit modal mass.
+    unloaded : bool
+        Also solve the beam without axial force, to tell what the force does to each mode.
+
+    Returns
+    -------
+    ModalResult
+
+    Raises
+    ------
+    InputError
+        If an argument is outside its range.
+    ComputationError
+        If the eigenvalues could not be bracketed.
+    """
+    if not 1 <= modes <= 500:
+        raise InputError(f"modes is {modes}; allowed are 1 ... 500 for each family")
+    if not 1e-12 <= tolerance <= 0.1:
+        raise InputError(f"tolerance is {tolerance:g}; allowed are 1e-12 ... 0.1 (relative)")
+    beam = problem if isinstance(problem, Beam) else problem.beam()
+    chosen = families or (FAMILIES if beam.axial_stiffness is not None else FAMILIES[:1])
+    grid = output_grid(beam, modes)
+    found: list[Mode] = []
+    segments: dict[str, int] = {}
+    solutions: dict[Family, Solution] = {}
+    warnings: list[str] = []
+    for family in chosen:
+        solved = solve_family(beam, family, modes, tolerance, method)
+        named, solutions[family] = _modes_of(beam, solved, grid, modes, normalisation)
+        found += named
+        segments[family] = len(solved.chain.length)
+        warnings += solved.warnings
+    if unloaded:
+        found = _compare_unloaded(beam, found, modes, tolerance)
+    if not all(np.isfinite(mode.omega2) for mode in found):
+        raise ComputationError("a frequency is no finite number; check the units of the input")
+    warnings += result_warnings(beam, found)
+    return ModalResult(
+        beam=beam,
+        modes=tuple(found),
+        x=grid,
+        method=method,
+        tolerance=tolerance,
+        normalisation=normalisation,
+        segments=segments,
+        solutions=solutions,
+        warnings=tuple(warnings),
+    )
+
+
+def _modes_of(
+    beam: Beam, solved: Solved, grid: Array, modes: int, normalisation: Normalisation
+) -> tuple[list[Mode], Solution]:
+    """Name the eigenvalues, attach shapes and everything that follows from them."""
+    family = solved.chain.family
+    names = name_modes(beam, family, solved.eigenvalues)
+    keep = [
+        k
+        for k, (value, (_, number)) in enumerate(zip(solved.eigenvalues, names, strict=True))
+        if number <= modes or value.omega2 < 0
+    ]
+    chain = solved.chain.cut_at(np.unique(grid - grid[0]))
+    omega2 = np.array([solved.eigenvalues[k].omega2 for k in keep])
+    states = shapes(beam, chain, solved.eigenvalues, keep, names)
+    energies = shapes_for(len(chain.length), len(keep)).mode_energies(chain, states, omega2)
+    scale = normalising_factors(states, energies.mass, normalisation)
+    states = states * scale[:, None]
+    at_grid = on_grid(chain, states, omega2, grid - grid[0])
+    energies = energies.scaled(scale)
+    model_errors = estimate_model_errors(beam, chain, omega2, energies)
+    quadratic = np.transpose(energies[1:]).tolist()
+    rows = [
+        _mode(solved, k, names[k], at_grid[:, column], quadratic[column], model_errors[column])
+        for column, k in enumerate(keep)
+    ]
+    return with_joint_brackets(rows), Solution(chain, omega2, states)
+
+
+def _mode(
+    solved: Solved,
+    k: int,
+    named: tuple[str, int],
+    shape: Array,
+    quadratic: list[float],
+    model_error: float | None,
+) -> Mode:
+    value, family = solved.eigenvalues[k], solved.chain.family
+    (name, number), (mass, stiffness, size) = named, quadratic
+    exact = value.omega2 == 0.0 and number == 0
+    rounding = 0.0 if exact else ROUNDING * size / mass
+    low, high = value.bracket[0] - rounding, value.bracket[1] + rounding
+    half = max(value.omega2 - low, high - value.omega2)
+    error = 0.0 if exact else half + float(solved.discretisation[k])
+    quotient = stiffness / mass
+    reference = max(abs(value.omega2), 1e-9 * omega2_scale(solved.chain))
+    kind: Kind = "divergent" if value.omega2 < 0 else "elastic" if number else "rigid"
+    return Mode(
+        family=family,
+        number=number,
+        name=name,
+        kind=kind,
+        omega2=value.omega2,
+        bracket_omega2=(low, high),
+        counts=value.counts,
+        error_omega2=error,
+        modal_mass=mass,
+        residual=0.0 if exact else abs(quotient - value.omega2) / reference,
+        model_error=model_error if number else None,
+        states=shape,
+    )
+
+
+def _compare_unloaded(beam: Beam, found: list[Mode], modes: int, tolerance: float) -> list[Mode]:
+    """Attach to every bending mode its omega^2 without axial force."""
+    most = max((m.number for m in found if m.family == "bending"), default=0)
+    if most == 0:
+        return found
+    free = beam.without_axial_force()
+    solved = solve_family(free, "bending", max(modes, most), tolerance, "riccati")
+    names = name_modes(free, "bending", solved.eigenvalues)
+    omega2 = {
+        name: value.omega2 for (name, _), value in zip(names, solved.eigenvalues, strict=True)
+    }
+    return [
+        replace(m, unloaded_omega2=omega2.get(m.name) if m.family == "bending" else m.omega2)
+        for m in found
+    ]

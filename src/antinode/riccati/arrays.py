@@ -1,0 +1,8 @@
+"""Names for the arrays that everything passes on: declared here, once."""
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+Complex = npt.NDArray[np.complex128]

@@ -1,0 +1,315 @@
+"""What the terminal shows: tables of modes and loads, warnings, what was left out (rich)."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections import Counter
+from collections.abc import Collection, Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from rich.box import SIMPLE_HEAD
+from rich.console import Console, JustifyMethod
+from rich.markup import escape
+from rich.measure import Measurement
+from rich.table import Table
+from rich.text import Text
+
+from antinode.beam.attachments import name_of
+from antinode.modes.result import NOT_MODELLED, ModalResult, Mode
+from antinode.modes.verify import ALLOWED
+from antinode.text import counted, one_line
+
+if TYPE_CHECKING:
+    from antinode.beam.beam import Beam
+    from antinode.modes.buckling import Buckling
+    from antinode.modes.verify import Check
+    from antinode.vehicle.case import Case
+
+_WIDTH = 104
+_LONGEST_NAME = 80
+_MOST_LISTED = 4  # attachments that are shown one by one
+
+
+def console() -> Console:
+    """Return the console for results: as wide as the terminal, or 104 columns where there is none.
+
+    The environment variable COLUMNS says otherwise.
+    """
+    plain = Console()
+    if plain.is_terminal:
+        return plain
+    columns = os.environ.get("COLUMNS", "")
+    width = int(columns) if columns.isdecimal() and len(columns) < 5 else _WIDTH
+    return Console(width=max(width, 20), color_system=None)
+
+
+def new_table(*headings: str, left: Collection[int] = (0,)) -> Table:
+    """Return an empty table; columns hold numbers, to the right, but for those in `left`.
+
+    The first column may wrap if it is one of these.
+    """
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    for k, heading in enumerate(headings):
+        side: JustifyMethod = "left" if k in left else "right"
+        table.add_column(Text(heading), justify=side, no_wrap=k > 0 or k not in left)
+    return table
+
+
+def _row(table: Table, *cells: str) -> None:
+    """Add a row of plain text, in which no bracket is a mark."""
+    table.add_row(*(Text(cell) for cell in cells))
+
+
+def show_modes(out: Console, result: ModalResult, warnings: Sequence[str] = ()) -> None:
+    """Print the table of modes, then all warnings and what the model leaves out."""
+    out.print(modes_table(result, out))
+    if result.method == "tmm":
+        out.print(f"[dim]{_BY_TMM}[/dim]", highlight=False)
+    show_warnings(out, [*warnings, *result.warnings])
+    out.print(f"[dim]Not in the model: {'; '.join(NOT_MODELLED)}.[/dim]", highlight=False)
+
+
+_BY_TMM = (
+    "By the transfer matrix scan, for comparison: no error bound, and what the axial force does to "
+    "each mode is left to the default method."
+)
+
+_HEADINGS = {
+    "mode": "mode",
+    "kind": "kind",
+    "frequency [Hz]": "f [Hz]",
+    "+- error [Hz]": "+- [Hz]",
+    "by axial force": "by N",
+    "by shear, rot. inertia": "by shear",
+}
+"""Headings of the table of modes, and what they shrink to on a narrow terminal."""
+
+
+def modes_table(result: ModalResult, out: Console) -> Table:
+    """Return the table of modes that fits the console: in short words, or with fewer columns."""
+    headings = tuple(_HEADINGS)
+    brief = tuple(_HEADINGS.values())
+    choices = ((headings, False), (headings, True), *((brief[:n], True) for n in (6, 5, 4, 3)))
+    return _fitting((_modes_table(result, *choice) for choice in choices), out)
+
+
+def _fitting(tables: Iterable[Table], out: Console) -> Table:
+    """Return the first table that fits the console, or else the last one."""
+    for table in tables:
+        options = out.options.update(width=10 * _WIDTH)
+        if Measurement.get(out, options, table).maximum <= out.width:
+            break
+    return table
+
+
+def _modes_table(result: ModalResult, headings: Sequence[str], brief: bool) -> Table:
+    table = new_table(*headings, left=(0, 1))
+    family = ""
+    for mode in result.modes:
+        if family and mode.family != family:
+            table.add_section()
+        family = mode.family
+        cells = _cells(mode, brief)
+        if result.method == "tmm":
+            cells = (*cells[:3], "", "", *cells[5:])
+        _row(table, *cells[: len(headings)])
+    return table
+
+
+def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
+    lateral = mode.number or mode.family == "bending"
+    name = mode.name if lateral else "longitudinal rigid"
+    if mode.omega2 < 0:
+        growth = f"{mode.growth_rate_per_s:.5g} /s"
+        error = f"{mode.error_growth_rate_per_s:.1e}"
+        return name, "divergent", growth if brief else f"grows at {growth}", error, "", ""
+    exact = mode.omega2 == 0.0
+    return (
+        name,
+        mode.kind,
+        "0" if exact else frequency_text(mode),
+        "exact" if exact else f"{mode.error_hz:.1e}",
+        percent(mode.shift),
+        "" if mode.model_error is None else percent(mode.model_error),
+    )
+
+
+def frequency_text(mode: Mode) -> str:
+    """Return the frequency with as many decimals as its error leaves, 4 at least, 6 at most."""
+    size = max(mode.error_hz, 1e-300)
+    decimals = int(np.clip(math.floor(-math.log10(size)), 1, 6 if mode.frequency_hz < 1e3 else 3))
+    return f"{mode.frequency_hz:.{max(decimals, 4)}f}"
+
+
+def percent(fraction: float) -> str:
+    """Return a fraction as a signed percentage; nothing for NaN."""
+    if math.isnan(fraction):
+        return ""
+    return f"{100 * fraction:+.3g} %" if abs(fraction) > 5e-9 else "0 %"
+
+
+def show_warnings(out: Console, warnings: Iterable[str]) -> None:
+    """Print each warning on its own, marked."""
+    for warning in warnings:
+        out.print(f"[yellow]warning:[/yellow] {escape(warning)}", highlight=False)
+
+
+def show_condition(out: Console, case: Case) -> None:
+    """Print the condition and the loads in a few lines."""
+    c, loads = case.condition, case.loads
+    name = _plain(case.vehicle.name)
+    out.print(f"[bold]{name}[/bold]  {_condition_text(case)}", highlight=False)
+    planing = "none" if loads.F_PX == 0 and loads.F_PY == 0 else f"{_kN(loads.F_PX)} kN"
+    out.print(
+        f"cavity {loads.cavity.L_c:.3g} m long, {loads.cavity.D_c:.3g} m wide; drag: cavitator "
+        f"{_kN(loads.F_CX)} kN, fins {_kN(loads.F_fX)} kN, planing {planing}; "
+        f"thrust {_kN(c.thrust)} kN; acceleration {loads.a_X:.3g} m/s^2",
+        highlight=False,
+    )
+    ends = loads.axial_force(np.array([0.0, case.vehicle.length]))
+    out.print(
+        f"axial force N from {_kN(ends[0])} kN at the nose to {_kN(ends[1])} kN at the tail "
+        f"(compression positive); {loads.mass:.5g} kg; balance at the ends closes to "
+        f"{loads.checks.worst:.0e}",
+        highlight=False,
+    )
+
+
+def _condition_text(case: Case) -> str:
+    c = case.condition
+    parts = [
+        f"V = {c.speed:g} m/s",
+        f"sigma = {case.loads.sigma:.4g}",
+        f"cavitator {math.degrees(c.cavitator_angle):.4g} deg",
+        f"body {math.degrees(c.body_angle):.4g} deg" if c.body_angle else "",
+        f"T = {c.thrust / 1e3:g} kN",
+        f"fins at {c.fin_position:g} m" if c.fin_position is not None else "",
+        f"burnt {c.burn_fraction:.0%}" if len(case.vehicle.stations.mass_per_length) > 1 else "",
+    ]
+    return ", ".join(part for part in parts if part)
+
+
+def _plain(name: str) -> str:
+    """Return a name from a file without what a terminal would obey."""
+    return escape(one_line(name, _LONGEST_NAME))
+
+
+def _kN(force: float) -> str:
+    return f"{force / 1e3:.4g}"
+
+
+def show_loads(out: Console, case: Case) -> None:
+    """Print forces, accelerations, checks and validity ranges of a case."""
+    show_condition(out, case)
+    out.print(_forces_table(case))
+    out.print(_internal_table(case))
+    out.print(_fitting((_validity_table(case, columns) for columns in (5, 4)), out))
+    show_warnings(out, case.loads.warnings)
+
+
+def _forces_table(case: Case) -> Table:
+    loads = case.loads
+    table = new_table("force", "x [m]", "drag, aft [N]", "lift, up [N]")
+    for force in loads.forces:
+        _row(table, force.name, f"{force.x:.4g}", f"{force.F_X:.6g}", f"{force.F_Y:.6g}")
+    _row(table, "thrust", f"{case.vehicle.length:.4g}", f"{-loads.thrust:.6g}", "")
+    _row(table, "weight", f"{loads.x_M:.4g}", "", f"{-loads.weight:.6g}")
+    table.add_section()
+    forward, up = f"{-loads.a_X:.5g} m/s^2", f"{loads.a_Y:.5g} m/s^2"
+    _row(table, "acceleration of the body", "", forward, up)
+    _row(table, "angular, nose-up", "", "", f"{loads.beta:.5g} rad/s^2")
+    return table
+
+
+_INTERNAL = ("x [m]", "N [kN]", "Q [kN]", "M [kN m]", "deflection [mm]", "axial [mm]")
+
+
+def _internal_table(case: Case) -> Table:
+    from antinode.vehicle.statics import static_shape
+
+    loads, x = case.loads, np.linspace(0, case.vehicle.length, 9)
+    shape = static_shape(case)
+    table = new_table(*_INTERNAL, left=())
+    rows = zip(
+        x,
+        loads.axial_force(x) / 1e3,
+        loads.shear_force(x) / 1e3,
+        loads.bending_moment(x) / 1e3,
+        np.interp(x, shape.x, shape.lateral) * 1e3,
+        np.interp(x, shape.x, shape.axial) * 1e3,
+        strict=True,
+    )
+    for position, *forces in rows:
+        _row(table, f"{position:.3f}", *(f"{round(force, 4) + 0.0:.4f}" for force in forces))
+    return table
+
+
+def _validity_table(case: Case, columns: int) -> Table:
+    words = ("correlation", "quantity", "value", "valid range", "")[:columns]
+    table = new_table(*words, left=range(len(words)))
+    for row in case.loads.validity:
+        high = "" if math.isinf(row.high) else f" ... {row.high:g}"
+        low = f"from {row.low:g}" if math.isinf(row.high) else f"{row.low:g}"
+        mark = "inside" if row.inside else "OUTSIDE"
+        cells = (row.correlation, row.quantity, f"{row.value:.4g}", low + high, mark)
+        _row(table, *cells[:columns])
+    return table
+
+
+def show_beam(out: Console, beam: Beam) -> None:
+    """Print what the beam is, in two lines."""
+    e = beam.ends
+    out.print(
+        f"[bold]{_plain(beam.name)}[/bold]  {beam.length:.5g} m, {beam.mass:.5g} kg, "
+        f"{counted(len(beam.x) - 1, 'interval')} ({beam.interpolation}), {e.left} - {e.right}",
+        highlight=False,
+    )
+    if beam.attachments:
+        out.print(f"attached: {_attached(beam)}", highlight=False)
+    every = np.arange(len(beam.x) - 1)
+    N = np.stack([beam.axial_force_at(every, np.full(len(every), t)) for t in (0.0, 1.0)])
+    force = "no axial force"
+    if not beam.is_unloaded:
+        force = f"axial force N from {_kN(N.min())} to {_kN(N.max())} kN (compression positive)"
+    out.print(force, highlight=False)
+
+
+def _attached(beam: Beam) -> str:
+    """Return what is attached, each with its station, or how many there are of each kind."""
+    if len(beam.attachments) <= _MOST_LISTED:
+        return ", ".join(f"{name_of(item)} at {item.x:.5g} m" for item in beam.attachments)
+    kinds = Counter(map(name_of, beam.attachments))
+    plurals = {"point mass": "point masses"}
+    return ", ".join(counted(n, kind, plurals.get(kind, "")) for kind, n in kinds.items())
+
+
+def show_buckling(out: Console, critical: Buckling | None) -> None:
+    """Print the load factor at which the first supported mode diverges."""
+    text = "no factor on the axial force buckles it: it is nowhere in compression"
+    if critical is not None:
+        text = (
+            f"buckles at [bold]{critical.load_factor:.6g}[/bold] +- {critical.error:.1e} "
+            "times its axial force (first supported mode, forces of fixed direction)"
+        )
+    out.print(text, highlight=False)
+
+
+def show_checks(checks: Sequence[Check]) -> None:
+    """Print the table of built-in checks and the verdict."""
+    failed = sum(not check.passed for check in checks)
+    out = console()
+    out.print(checks_table(checks))
+    verdict = f"{failed} of {len(checks)} checks failed" if failed else "all checks passed"
+    out.print(f"{verdict} (allowed relative error of a frequency {ALLOWED:g})", highlight=False)
+
+
+def checks_table(checks: Iterable[Check]) -> Table:
+    """Return the table of built-in checks."""
+    headings = ("check", "closed form", "modes", "worst relative error", "")
+    table = new_table(*headings, left=(0, 1, 3, 4))
+    for check in checks:
+        mark = "passed" if check.passed else "FAILED"
+        _row(table, check.name, check.formula, str(check.modes), f"{check.worst:.1e}", mark)
+    return table

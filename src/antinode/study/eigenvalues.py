@@ -1,0 +1,137 @@
+"""The eigenvalues of a case on chains of fixed refinement: a smooth function of its numbers.
+
+`solve_modes` refines until its estimate meets a tolerance. That makes tiny jumps as the input
+changes, which derivatives and least squares do not like; here the refinement is chosen once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.beam.beam import Beam
+from antinode.errors import ComputationError
+from antinode.modes.batch import BeamBatch, solve_many
+from antinode.riccati.chain import Chain, Family
+from antinode.riccati.roots import CountingError, find_eigenvalues
+from antinode.vehicle.case import Case
+from antinode.vehicle.derivatives import Modes, Sensitivity
+from antinode.vehicle.loads import Loads
+
+Wanted = Mapping[Family, int]
+_FINEST = 16
+
+
+@dataclass(frozen=True)
+class Response:
+    """Eigenvalues 1, 2, ... of the families that were asked for.
+
+    Attributes
+    ----------
+    case : Case
+    loads : Loads
+    beam : Beam
+    modes : dict
+        `Modes` 1 ... n by family, rigid ones left out.
+    """
+
+    case: Case
+    loads: Loads
+    beam: Beam
+    modes: Mapping[Family, Modes] = field(repr=False)
+
+    def sensitivity(self, family: Family) -> Sensitivity:
+        """Return the derivatives of the eigenvalues of a family."""
+        return Sensitivity(self.modes[family], self.beam, self.loads)
+
+    def frequencies_hz(self, family: Family) -> Array:
+        """Return the frequencies of modes 1, 2, ... [Hz]; negative for a divergent mode."""
+        return hertz(self.modes[family].omega2)
+
+
+def hertz(omega2: Array) -> Array:
+    """Return frequencies [Hz] of omega^2 [rad^2/s^2], with its sign."""
+    return np.asarray(np.sign(omega2) * np.sqrt(np.abs(omega2)) / (2 * np.pi))
+
+
+def hertz_slope(omega2: Array) -> Array:
+    """Return the derivative of `hertz` by omega^2 [Hz s^2/rad^2]."""
+    size = np.sqrt(np.maximum(np.abs(omega2), np.finfo(float).tiny))
+    return np.asarray(1 / (4 * np.pi * size))
+
+
+def respond(
+    cases: Sequence[Case], wanted: Sequence[Wanted], refinement: int = 2
+) -> tuple[Response, ...]:
+    """Compute the eigenvalues 1 ... n of each family that is wanted, of several cases at once.
+
+    Raises
+    ------
+    InputError
+        If a case cannot be, such as a fin inside the body.
+    ComputationError
+        If its loads or its eigenvalues cannot be computed.
+    """
+    beams = [case.beam() for case in cases]
+    modes: list[dict[Family, Modes]] = [{} for _ in cases]
+    rows = [k for k, families in enumerate(wanted) if "bending" in families]
+    chains = [beams[k].chain("bending", refinement) for k in rows]
+    numbers = [wanted[k]["bending"] for k in rows]
+    for k, chain, omega2 in zip(rows, chains, _bending(chains, numbers), strict=True):
+        modes[k]["bending"] = Modes(chain, omega2)
+    for k, families in enumerate(wanted):
+        if "longitudinal" in families:
+            chain = beams[k].chain("longitudinal", refinement)
+            modes[k]["longitudinal"] = Modes(chain, _solve(chain, families["longitudinal"], 1, 1))
+    return tuple(map(Response, cases, [case.loads for case in cases], beams, modes))
+
+
+def _bending(chains: Sequence[Chain], numbers: Sequence[int]) -> list[Array]:
+    """Return the eigenvalues 1 ... n of free-free chains; those of equal size side by side."""
+    found: list[Array] = [np.zeros(0)] * len(chains)
+    sizes = [len(chain.length) for chain in chains]
+    for size in set(sizes):
+        rows = [k for k, n in enumerate(sizes) if n == size]
+        batch = BeamBatch(
+            length=np.stack([chains[k].length for k in rows]),
+            mass_per_length=np.stack([chains[k].mass for k in rows]),
+            bending_stiffness=np.stack([chains[k].stiffness for k in rows]),
+            axial_force=np.stack([chains[k].axial_force for k in rows]),
+            modes=max(numbers[k] for k in rows),
+        )
+        omega2 = solve_many(batch).omega2
+        for k, values in zip(rows, omega2, strict=True):
+            known = bool(np.all(np.isfinite(values)))
+            zeros = 1 if np.any(chains[k].axial_force) else 2
+            found[k] = values[: numbers[k]] if known else _solve(chains[k], numbers[k], 2, zeros)
+    return found
+
+
+def _solve(chain: Chain, number: int, rigid: int, zeros: int) -> Array:
+    """Return the eigenvalues 1 ... n of a chain, after its rigid modes, some of them at zero."""
+    try:
+        found = find_eigenvalues(chain, number + rigid, zeros=zeros)
+    except (CountingError, FloatingPointError) as error:
+        wrong = f"the {chain.family} eigenvalues could not be found: {error}"
+        raise ComputationError(wrong) from error
+    omega2 = [value.omega2 for value in found]
+    for _ in range(zeros):
+        omega2.remove(0.0)
+    return np.array(omega2[rigid - zeros :][:number])
+
+
+def sufficient_refinement(case: Case, wanted: Wanted, tolerance: float) -> int:
+    """Return how finely chains must be divided for frequencies within a relative tolerance."""
+    refinement, (before,) = 1, respond([case], [wanted], 1)
+    while refinement < _FINEST:
+        (after,) = respond([case], [wanted], 2 * refinement)
+        changes = [np.abs(after.modes[f].omega2 / before.modes[f].omega2 - 1).max() for f in wanted]
+        if max(changes) / 2 < tolerance:
+            return refinement
+        refinement, before = 2 * refinement, after
+        if max(changes) / 32 < tolerance:
+            break
+    return refinement

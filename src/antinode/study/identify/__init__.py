@@ -1,0 +1,1 @@
+"""Identification: the vehicle that measured frequencies belong to."""

@@ -1,0 +1,183 @@
+"""Residuals of an identification and their derivatives, row by row.
+
+A residual is (f - f_observed) / standard deviation. Its derivatives follow from those of omega^2 by
+every number and column that may change (`effects.py`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.errors import AntinodeError
+from antinode.riccati.chain import Family
+from antinode.study.eigenvalues import Response, hertz, hertz_slope, respond
+from antinode.vehicle.case import Case
+from antinode.vehicle.derivatives import Sensitivity
+from antinode.vehicle.effects import Effect, by_logarithm, effect_of_number, effect_of_radius
+
+from .observations import Pairing, RowData, pair
+from .unknowns import Unknowns
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """The model at one vector.
+
+    Attributes
+    ----------
+    vector : array
+    responses : tuple of Response
+        By row.
+    pairings : tuple of dict
+        By row and family.
+    """
+
+    vector: Array
+    responses: tuple[Response, ...]
+    pairings: tuple[Mapping[Family, Pairing], ...]
+
+    def fitted_hz(self, row: int, family: Family) -> Array:
+        """Return the frequencies that stand against the observed ones [Hz]."""
+        omega2 = self.responses[row].modes[family].omega2
+        return hertz(omega2[self.pairings[row][family].index])
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """Residuals of the data as a function of the vector.
+
+    Attributes
+    ----------
+    unknowns : Unknowns
+    rows : tuple of RowData
+    refinement : int
+        Of the chains.
+    """
+
+    unknowns: Unknowns
+    rows: tuple[RowData, ...]
+    refinement: int
+
+    @cached_property
+    def number(self) -> int:
+        """How many frequencies were observed."""
+        return sum(len(data.hz) for row in self.rows for data in row.families.values())
+
+    def cases(self, vector: Array) -> list[Case]:
+        """Return the case of every row."""
+        shared = self.unknowns.apply(self.unknowns.case, vector)
+        return [
+            self.unknowns.apply_row(row.condition(shared), vector, k)
+            for k, row in enumerate(self.rows)
+        ]
+
+    def evaluate(self, vector: Array) -> Evaluation:
+        """Compute all rows.
+
+        Raises
+        ------
+        AntinodeError
+            If a row cannot be computed.
+        """
+        wanted = [row.wanted for row in self.rows]
+        responses = respond(self.cases(vector), wanted, self.refinement)
+        pairings = tuple(
+            {family: pair(data, response.modes[family]) for family, data in row.families.items()}
+            for row, response in zip(self.rows, responses, strict=True)
+        )
+        return Evaluation(vector, responses, pairings)
+
+    def residuals(self, at: Evaluation) -> Array:
+        """Return the residuals of the data."""
+        return np.concatenate(
+            [
+                (at.fitted_hz(k, family) - data.hz) / data.sd
+                for k, row in enumerate(self.rows)
+                for family, data in row.families.items()
+            ]
+        )
+
+    def jacobian(self, at: Evaluation) -> Array:
+        """Return the derivatives of the residuals by the vector."""
+        slopes = self.unknowns.slopes(at.vector)
+        blocks = []
+        for k, row in enumerate(self.rows):
+            derivative = RowDerivative(self.unknowns, k, at.responses[k], slopes)
+            for family, data in row.families.items():
+                index = at.pairings[k][family].index
+                omega2 = at.responses[k].modes[family].omega2[index]
+                block = derivative.by_vector(family)[index]
+                blocks.append(block * (hertz_slope(omega2) / data.sd)[:, None])
+        return np.concatenate(blocks)
+
+
+@dataclass(frozen=True)
+class RowDerivative:
+    """Derivatives of omega^2 of one row by the vector."""
+
+    unknowns: Unknowns
+    row: int
+    response: Response
+    slopes: Array
+
+    @property
+    def case(self) -> Case:
+        """The case of the row."""
+        return self.response.case
+
+    def by_vector(self, family: Family) -> Array:
+        """Return the derivatives of omega^2 1 ... n of a family, shape (n, entries)."""
+        sensitivity = self.response.sensitivity(family)
+        total = np.zeros((len(self.response.modes[family].omega2), len(self.unknowns.items)))
+        by_column = self._by_logarithms(sensitivity)
+        for item in self.unknowns.columns:
+            sizes = np.array([u.size for u in self.unknowns.items[item.entries]])
+            if item.column.key in by_column:
+                total[:, item.entries] = by_column[item.column.key].T @ item.column.weights * sizes
+        for entry, by_entry, effect in self._effects:
+            total[:, entry] += by_entry * effect.slope(sensitivity)
+        return total
+
+    def _by_logarithms(self, sensitivity: Sensitivity) -> dict[str, Array]:
+        """Return derivatives by the logarithms of columns, those relative to them included."""
+        found: dict[str, Array] = {}
+        for item in reversed(self.unknowns.columns):
+            key, parent = item.column.key, item.column.parent
+            if key == "radius":
+                continue
+            own = by_logarithm(self.case, item.column.keys, sensitivity)
+            found[key] = found.get(key, 0.0) + own
+            if parent is not None:
+                found[parent] = found.get(parent, 0.0) + found[key]
+        return found
+
+    @cached_property
+    def _effects(self) -> list[tuple[int, float, Effect]]:
+        """Entries of the vector, what each changes, and how fast that goes with the entry."""
+        items = self.unknowns.items
+        found = []
+        for scalar in self.unknowns.scalars:
+            k = scalar.entry(self.row)
+            effect = effect_of_number(self.case, scalar.place, items[k].size)
+            found.append((k, float(self.slopes[k]), effect))
+        for item in self.unknowns.columns:
+            if item.column.key == "radius":
+                first = item.entries.start
+                found += [
+                    (k, items[k].size, effect_of_radius(self.case, weights))
+                    for k, weights in enumerate(item.column.weights.T, first)
+                ]
+        return found
+
+
+def try_evaluate(misfit: Misfit, vector: Array) -> Evaluation | None:
+    """Return the model at a vector, or None where it cannot be computed."""
+    try:
+        return misfit.evaluate(vector)
+    except (AntinodeError, ArithmeticError):
+        return None

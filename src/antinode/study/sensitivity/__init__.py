@@ -1,0 +1,1 @@
+"""Sensitivity: what moves each frequency, and by how much."""

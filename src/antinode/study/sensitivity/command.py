@@ -1,0 +1,150 @@
+"""What `antinode sensitivity` does: read, sample, print, draw."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from rich.console import Console
+from rich.text import Text
+
+from antinode.errors import InputError
+from antinode.inputs.reading import read_toml
+from antinode.show.outcome import check_plot, draw, print_json
+from antinode.show.printing import new_table
+from antinode.study.progress import cases_progress, end_progress
+from antinode.study.sweep.file import Study, StudyInput, load_study
+from antinode.text import counted, short
+from antinode.vehicle.case import load_case
+
+from .sensitivity import SensitivityResult, sensitivity
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_SHOWN = 6
+
+
+def run_sensitivity(
+    file: Path,
+    assignments: Iterable[str],
+    uncertain: Sequence[str],
+    *,
+    samples: int | None,
+    workers: int | None,
+    store: Path | None,
+    plot: Path | None,
+    json: bool,
+) -> None:
+    """Compute sensitivities, and give the result out."""
+    check_plot(plot)
+    study = read_uncertain(file, assignments, uncertain)
+    try:
+        result = sensitivity(
+            study, samples, workers=workers or 1, store=store, progress=cases_progress()
+        )
+    finally:
+        end_progress()
+    if plot:
+        draw(tornado(result), plot)
+    if json:
+        print_json(result.to_dict())
+    else:
+        from antinode.show.printing import console
+
+        show_sensitivity(console(), result)
+
+
+def read_uncertain(file: Path, assignments: Iterable[str], uncertain: Sequence[str]) -> Study:
+    """Read a study file; or a case file, whose uncertain inputs are given one by one."""
+    inputs = tuple(_uncertain_input(text) for text in uncertain)
+    if "vehicle" in read_toml(file):
+        if not inputs:
+            raise InputError(
+                f"{file}: this is a case; say what is uncertain, e.g. --uncertain speed=2%, or "
+                "name a study file"
+            )
+        return Study(case=load_case(file, assignments), inputs=inputs)
+    study = load_study(file, assignments)
+    return study.model_copy(update={"inputs": (*study.inputs, *inputs)})
+
+
+def _uncertain_input(text: str) -> StudyInput:
+    """Read ``thrust=5%`` or ``thrust=2kN``: a normal distribution about the case's value."""
+    key, equals, size = (part.strip() for part in text.partition("="))
+    if not equals or not key or not size:
+        raise InputError(
+            f"--uncertain {short(text)}: write an input and its standard deviation, "
+            "e.g. speed=2% or thrust=3kN"
+        )
+    if not size.endswith("%"):
+        return StudyInput(key=key, distribution="normal", sd=size)
+    try:
+        share = float(size[:-1]) / 100
+    except ValueError:
+        raise InputError(f"--uncertain {short(text)}: '{size[:20]}' is no number") from None
+    return StudyInput(key=key, distribution="normal", sd=share, factor=True)
+
+
+def show_sensitivity(out: Console, result: SensitivityResult) -> None:
+    """Print bands, then the inputs that matter for each mode."""
+    out.print(
+        f"[bold]{result.name}[/bold]: {counted(result.samples, 'sample')}, "
+        f"{counted(result.cases, 'case')}, {result.failed} failed",
+        highlight=False,
+    )
+    bands = new_table("mode", "nominal [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to")
+    for m in result.modes:
+        cells = (m.nominal, m.mean, m.sd, *m.band)
+        bands.add_row(m.name, *(f"{v:.5g}" for v in cells))
+    out.print(bands)
+    table = new_table(
+        "mode", "input", "total index", "+-", "first index", "+-", "% per %", left=(0, 1)
+    )
+    for m in result.modes:
+        order = np.argsort(-np.nan_to_num(m.indices.total))[:_SHOWN]
+        for number, k in enumerate(order.tolist()):
+            halves = [np.ptp(b[k]) / 2 for b in (m.indices.total_band, m.indices.first_band)]
+            table.add_row(
+                m.name if number == 0 else "",
+                Text(result.inputs[k]),
+                *(
+                    f"{v:.3f}"
+                    for v in (m.indices.total[k], halves[0], m.indices.first[k], halves[1])
+                ),
+                f"{m.elasticity[k]:+.4f}" if np.isfinite(m.elasticity[k]) else "",
+            )
+    out.print(table)
+
+
+def tornado(result: SensitivityResult) -> Figure:
+    """Draw the total and first indices of every mode, largest inputs on top."""
+    from antinode.show.figures import PALETTE, STYLE, pyplot
+
+    plt, modes = pyplot(), result.modes[:6]
+    rows = -(-len(modes) // 2)
+    with plt.rc_context(STYLE):
+        figure: Figure
+        figure, panels = plt.subplots(
+            rows, min(2, len(modes)), squeeze=False, layout="constrained", sharex=True,
+            figsize=(8.4, rows * (0.9 + 0.3 * min(len(result.inputs), 8))),
+        )  # fmt: skip
+        for m, axes in zip(modes, panels.ravel(), strict=False):
+            order = np.argsort(np.nan_to_num(m.indices.total))[-8:]
+            y = np.arange(len(order))
+            total, band = m.indices.total[order], m.indices.total_band[order]
+            error = np.abs(band.T - total)
+            axes.barh(y, total, 0.7, color=PALETTE[5], label="total")
+            axes.barh(y, m.indices.first[order], 0.35, color=PALETTE[0], label="first order")
+            axes.errorbar(total, y, xerr=error, fmt="none", ecolor="#374151", linewidth=1)
+            axes.set_yticks(y, [result.inputs[k].replace("_", " ") for k in order])
+            axes.set_title(f"{m.name}: {m.mean:.4g} Hz, sd {m.sd:.2g} Hz", loc="left")
+            axes.grid(visible=False, axis="y")
+        for axes in panels.ravel()[len(modes) :]:
+            axes.set_visible(False)
+        for axes in panels[-1]:
+            axes.set_xlabel("Sobol index: share of the variance")
+        panels[0, -1].legend(loc="lower right")
+    return figure

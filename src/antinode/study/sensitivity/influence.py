@@ -1,0 +1,197 @@
+"""How strongly each input moves each bending frequency: percent of f for each percent of it.
+
+For a vehicle the derivatives of omega^2 come from the mode shapes (`vehicle/effects.py`), on both
+sides of the condition. Of a beam each input is moved by a thousandth both ways, and the beam solved
+anew. With the frequency f = sqrt(omega^2)/(2 pi)
+
+    (df/f) / (dp/p) = (p / (2 omega^2)) d(omega^2)/dp.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.beam.attachments import Joint, PointMass, Spring
+from antinode.beam.beam import Beam
+from antinode.beam.file import BeamFile
+from antinode.errors import AntinodeError
+from antinode.modes.result import ModalResult
+from antinode.modes.solve import solve_modes
+from antinode.vehicle.case import Case
+from antinode.vehicle.derivatives import MassChange, Modes, Sensitivity
+from antinode.vehicle.effects import by_logarithm, effects_between
+from antinode.vehicle.paths import find_place
+
+_STEP = 1e-4  # relative, of what the forces depend on
+_BEAM_STEP = 1e-3
+_DEGREE = math.radians(1.0)
+_KINK = 0.05  # relative difference of the slopes on both sides that is told
+
+
+class Influence(NamedTuple):
+    """What one input does.
+
+    Attributes
+    ----------
+    name : str
+    change : str
+        The change that it is for: "1 %", "1 deg".
+    percent : array, shape (modes,)
+        Change of every bending frequency [%]; NaN where the mode diverges.
+    kink : bool
+        Whether it differs on the two sides, as where a fin starts to be wetted.
+    """
+
+    name: str
+    change: str
+    percent: Array
+    kink: bool = False
+
+
+def case_influences(case: Case, result: ModalResult, most: int) -> list[Influence]:
+    """Return what moves the bending modes 1 ... n of a vehicle, solved before."""
+    omega2 = [mode.omega2 for mode in result.family("bending") if mode.number][:most]
+    modes = Modes(result.solutions["bending"].chain, np.array(omega2))
+    sensitivity = Sensitivity(modes, result.beam, case.loads)
+    return [*_of_condition(case, sensitivity), *_of_body(case, sensitivity)]
+
+
+def _relative(sensitivity: Sensitivity, slope: Array) -> Array:
+    """Return percent of f for a slope of omega^2 by one percent, times 100 percent."""
+    omega2 = sensitivity.modes.omega2
+    return np.asarray(np.where(omega2 > 0, slope / (2 * np.abs(omega2)), np.nan))
+
+
+def _of_condition(case: Case, sensitivity: Sensitivity) -> Iterator[Influence]:
+    for name, key, step, scale, change in _parameters(case):
+        place = find_place(case, f"condition.{key}")
+        value = getattr(case.condition, key)
+        try:
+            sides = effects_between(case, place, (value - step, value, value + step))
+        except AntinodeError:
+            continue
+        low, high = (side.slope(sensitivity) * scale for side in sides)
+        gap, size = (float(np.max(np.abs(v))) for v in (high - low, (low, high)))
+        percent = _relative(sensitivity, (low + high) / 2)
+        yield Influence(name, change, percent, gap > _KINK * size and gap > 0)
+
+
+def _parameters(case: Case) -> Iterator[tuple[str, str, float, float, str]]:
+    """Yield name, key, step, what the change stands for in units of the key, and the change."""
+    c = case.condition
+    relative = [("speed V", "speed"), ("cavitation number σ", "cavitation_number")]
+    relative += [("depth", "depth")] if c.cavitation_number is None else []
+    relative += [("extra drag", "extra_drag")]
+    for name, key in relative:
+        value = getattr(c, key)
+        if value:
+            yield name, key, _STEP * value, value, "1 %"
+    for name, key in (("cavitator angle", "cavitator_angle"), ("body angle", "body_angle")):
+        yield name, key, _STEP * _DEGREE, 100 * _DEGREE, "1 deg"
+    if c.fin_position and any(fins.position is None for fins in case.vehicle.fins):
+        L = case.vehicle.length
+        yield "fin position", "fin_position", _STEP * L, L, "1 % of length"
+
+
+def _of_body(case: Case, sensitivity: Sensitivity) -> Iterator[Influence]:
+    loads = case.loads
+    yield Influence("thrust", "1 %", _relative(sensitivity, sensitivity.by_thrust * loads.thrust))
+    mass = loads.mass_distribution
+    by_mass = sensitivity.by_mass(MassChange(mass.at, lambda x: mass.moments(x)[0]))
+    yield Influence("mass of the body", "1 %", _relative(sensitivity, by_mass))
+    by_EI = by_logarithm(case, ("bending_stiffness",), sensitivity).sum(axis=0)
+    yield Influence("bending stiffness EI", "1 %", _relative(sensitivity, by_EI))
+
+
+# --- any beam --------------------------------------------------------------------------------
+
+Scaled = Callable[[BeamFile, float], Beam]
+
+
+def beam_influences(file: BeamFile, modes: int, tolerance: float) -> list[Influence]:
+    """Return what moves the bending modes 1 ... n of a beam."""
+    found = []
+    for name, scaled in _scalings(file):
+        ends = [_omega2(scaled(file, 1 + s * _BEAM_STEP), modes, tolerance) for s in (-1, 1)]
+        mean = (ends[0] + ends[1]) / 2
+        slope = (ends[1] - ends[0]) / (2 * _BEAM_STEP)
+        percent = np.where(mean > 0, slope / (2 * np.abs(mean)), np.nan)
+        found.append(Influence(name, "1 %", percent))
+    return found
+
+
+def _omega2(beam: Beam, modes: int, tolerance: float) -> Array:
+    result = solve_modes(beam, modes, tolerance=tolerance, families=["bending"])
+    return np.array([result.mode("bending", k).omega2 for k in range(1, modes + 1)])
+
+
+def _scalings(file: BeamFile) -> Iterator[tuple[str, Scaled]]:
+    beam = file.beam()
+    yield "bending stiffness EI", _stiffer
+    yield "mass per length", _heavier
+    kinds = {type(item) for item in beam.attachments}
+    if PointMass in kinds:
+        yield "point masses", _heavier_points
+    if any(isinstance(item, Spring) and _finite(item) for item in beam.attachments):
+        yield "stiffness of springs", _stiffer_springs
+    if Joint in kinds:
+        yield "compliance of joints", _softer_joints
+    if not beam.is_unloaded:
+        yield "axial force N", _more_force
+
+
+def _stiffer(file: BeamFile, s: float) -> Beam:
+    beam = file.beam()
+    return replace(beam, bending_stiffness=beam.bending_stiffness * s)
+
+
+def _more_force(file: BeamFile, s: float) -> Beam:
+    beam = file.beam()
+    return replace(
+        beam,
+        axial_force=beam.axial_force * s,
+        axial_acceleration=beam.axial_acceleration * s,
+    )
+
+
+def _heavier(file: BeamFile, s: float) -> Beam:
+    """Return the beam with more mass per length; its weight, where there is any, goes along."""
+    table = file.table
+    stations = _scaled(table.stations, s, "mass_per_length")
+    parts = tuple(_scaled(part, s, "mass_per_length") for part in table.masses)
+    return _with_table(file, stations=stations, masses=parts)
+
+
+def _heavier_points(file: BeamFile, s: float) -> Beam:
+    masses = tuple(_scaled(m, s, "mass", "rotary_inertia") for m in file.table.point_masses)
+    return _with_table(file, point_masses=masses)
+
+
+def _stiffer_springs(file: BeamFile, s: float) -> Beam:
+    names = ("translational", "rotational", "axial")
+    return _with_table(file, springs=tuple(_scaled(k, s, *names) for k in file.table.springs))
+
+
+def _softer_joints(file: BeamFile, s: float) -> Beam:
+    names = ("rotational", "axial")
+    return _with_table(file, joints=tuple(_scaled(j, s, *names) for j in file.table.joints))
+
+
+def _scaled(inputs: Any, s: float, *names: str) -> Any:
+    return inputs.model_copy(update={name: getattr(inputs, name) * s for name in names})
+
+
+def _with_table(file: BeamFile, **changed: Any) -> Beam:
+    table = file.table.model_copy(update=changed)
+    return file.model_copy(update={"table": table}).beam()
+
+
+def _finite(spring: Spring) -> bool:
+    values = (spring.translational, spring.rotational)
+    return any(value and math.isfinite(value) for value in values)

@@ -1,0 +1,240 @@
+"""Sensitivity: how uncertain the frequencies are, and which inputs make them so.
+
+    result = sensitivity(study, 1024)
+
+Global: mean, deviation, 95 % band and Sobol indices of every frequency over the distributions of
+the inputs. Local: derivatives at the case itself, from the mode shapes, in % per %.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.errors import AntinodeError, ComputationError, InputError
+from antinode.riccati.chain import Family
+from antinode.study.eigenvalues import respond, sufficient_refinement
+from antinode.study.sweep.chunks import failed, mode_names
+from antinode.study.sweep.design import Points, Variable, points_of
+from antinode.study.sweep.file import Study
+from antinode.study.sweep.sweep import sweep
+from antinode.vehicle.case import Case
+from antinode.vehicle.derivatives import Sensitivity
+from antinode.vehicle.effects import by_logarithm, effect_of_number, effect_of_radius
+from antinode.vehicle.paths import value_at
+
+from .indices import Indices, sobol_indices
+
+
+@dataclass(frozen=True)
+class ModeSensitivity:
+    """What one frequency depends on.
+
+    Attributes
+    ----------
+    name : str
+    nominal, mean, sd : float
+        Of the case itself; over the distributions [Hz].
+    band : tuple of float
+        2.5 and 97.5 % quantiles [Hz].
+    indices : Indices
+        By input.
+    slope : array
+        Derivative at the case by each input [Hz for each SI unit]; NaN where there is none.
+    elasticity : array
+        The same in % per %.
+    """
+
+    name: str
+    nominal: float
+    mean: float
+    sd: float
+    band: tuple[float, float]
+    indices: Indices
+    slope: Array
+    elasticity: Array
+
+
+@dataclass(frozen=True)
+class SensitivityResult:
+    """Sensitivities of all frequencies.
+
+    Attributes
+    ----------
+    name : str
+    inputs, units : tuple of str
+    modes : tuple of ModeSensitivity
+    samples, cases, failed : int
+        Samples of each arrangement; all cases; those of them that failed.
+    """
+
+    name: str
+    inputs: tuple[str, ...]
+    units: tuple[str, ...]
+    modes: tuple[ModeSensitivity, ...]
+    samples: int
+    cases: int
+    failed: int
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain values for JSON."""
+        return {
+            "schema_version": 1,
+            "name": self.name,
+            "samples": self.samples,
+            "cases": self.cases,
+            "failed": self.failed,
+            "inputs": [
+                {"name": n, "unit": u} for n, u in zip(self.inputs, self.units, strict=True)
+            ],
+            "modes": [self._mode(m) for m in self.modes],
+        }
+
+    def _mode(self, m: ModeSensitivity) -> dict[str, Any]:
+        return {
+            "name": m.name,
+            "frequency_hz": m.nominal,
+            "mean_hz": m.mean,
+            "sd_hz": m.sd,
+            "band_hz": list(m.band),
+            "inputs": [
+                {
+                    "name": name,
+                    "first": m.indices.first[k],
+                    "first_band": m.indices.first_band[k],
+                    "total": m.indices.total[k],
+                    "total_band": m.indices.total_band[k],
+                    "slope_hz_per_unit": m.slope[k],
+                    "percent_per_percent": m.elasticity[k],
+                }
+                for k, name in enumerate(self.inputs)
+            ],
+        }
+
+
+def sensitivity(
+    study: Study,
+    samples: int | None = None,
+    *,
+    workers: int = 1,
+    store: str | Path | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> SensitivityResult:
+    """Compute the sensitivities of all frequencies of a study to its inputs.
+
+    Parameters
+    ----------
+    study : Study
+        Its inputs have distributions; its design is replaced.
+    samples : int, optional
+        Of each arrangement; inputs + 2 times as many cases are solved. By default design.number,
+        or 1024.
+    workers : int
+    store : str or Path, optional
+        Where the cases are kept, as in `sweep`.
+    progress : callable, optional
+
+    Raises
+    ------
+    InputError
+        If an input has no distribution.
+    ComputationError
+        If less than half of the samples can be solved.
+    """
+    number = samples or study.design.number or 1024
+    if number < 8:
+        raise InputError(f"{number} samples are too few; take 1024")
+    design = study.design.model_copy(update={"kind": "saltelli", "number": number, "table": None})
+    outputs = tuple(dict.fromkeys(("frequency_hz", *study.outputs)))
+    made = study.model_copy(update={"design": design, "outputs": outputs})
+    points = points_of(made)
+    data = sweep(made, store, workers=workers, progress=progress)
+    hz, reason = np.asarray(data["frequency_hz"]), np.asarray(data["reason"])
+    known = np.isfinite(hz[: 2 * number]).all(axis=1).mean()
+    if known < 0.5:
+        raise ComputationError(
+            f"only {known:.0%} of the samples have all frequencies; narrow the distributions"
+        )
+    slopes = local_slopes(made, points)
+    modes = [
+        _mode(points, name, hz[:, k], number, slopes) for k, name in enumerate(mode_names(made))
+    ]
+    return SensitivityResult(
+        name=study.name or study.case.vehicle.name,
+        inputs=tuple(v.name for v in points.variables),
+        units=tuple(v.unit for v in points.variables),
+        modes=tuple(modes),
+        samples=number,
+        cases=points.cases,
+        failed=int(np.count_nonzero(failed(reason))),
+    )
+
+
+def _mode(
+    points: Points, name: str, hz: Array, number: int, slopes: dict[str, tuple[float, Array]]
+) -> ModeSensitivity:
+    both = hz[: 2 * number]
+    both = both[np.isfinite(both)]
+    nominal, slope = slopes[name]
+    start = np.array([np.nan if v.start is None else v.start for v in points.variables])
+    low, high = np.quantile(both, [0.025, 0.975])
+    return ModeSensitivity(
+        name=name,
+        nominal=nominal,
+        mean=float(both.mean()),
+        sd=float(both.std(ddof=1)),
+        band=(float(low), float(high)),
+        indices=sobol_indices(hz, len(points.variables)),
+        slope=slope,
+        elasticity=slope * start / nominal,
+    )
+
+
+def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]:
+    """Return frequency [Hz] and its derivatives by the inputs, at the case, of every mode.
+
+    The derivatives come from the mode shapes, and from the loads by the chain rule.
+    """
+    wanted: dict[Family, int] = dict.fromkeys(study.solve.families, study.solve.modes)
+    found: dict[str, tuple[float, Array]] = {}
+    try:
+        refinement = sufficient_refinement(study.case, wanted, 1e-9)
+        (response,) = respond([study.case], [wanted], refinement)
+    except AntinodeError:
+        nothing = np.full(len(points.variables), np.nan)
+        return dict.fromkeys(mode_names(study), (np.nan, nothing))
+    for family, number in wanted.items():
+        omega2 = response.modes[family].omega2
+        exact = response.sensitivity(family)
+        by_input = np.stack([_by_input(study.case, exact, v) for v in points.variables], axis=1)
+        for k in range(number):
+            with np.errstate(all="ignore"):
+                hz = float(np.sqrt(omega2[k]) / (2 * np.pi))
+                found[f"{family} {k + 1}"] = hz, by_input[k] / (8 * np.pi**2 * hz)
+    return found
+
+
+def _by_input(case: Case, sensitivity: Sensitivity, variable: Variable) -> Array:
+    """Return d(omega^2) of every mode of a family by an input."""
+    try:
+        return _slope(case, sensitivity, variable)
+    except AntinodeError:
+        return np.full(len(sensitivity.modes.omega2), np.nan)
+
+
+def _slope(case: Case, sensitivity: Sensitivity, variable: Variable) -> Array:
+    if variable.weights is not None:  # of a factor on a column, which is 1 here
+        if variable.keys[-1] == "radius":
+            return effect_of_radius(case, variable.weights).slope(sensitivity)
+        by_row = by_logarithm(case, variable.keys[2:], sensitivity)
+        return np.asarray(variable.weights @ by_row)
+    value = None if variable.place is None else value_at(case, variable.keys)
+    if variable.place is None or value is None:
+        return np.full(len(sensitivity.modes.omega2), np.nan)
+    slope = effect_of_number(case, variable.place).slope(sensitivity)
+    return slope * value if variable.given.factor else slope

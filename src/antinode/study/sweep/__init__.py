@@ -1,0 +1,1 @@
+"""Sweeps: many cases over any inputs of one, into a store."""

@@ -1,0 +1,281 @@
+"""The study file: a case, the inputs of it that vary, how they vary, and what to compute.
+
+It has the name of a case file, tables `[[inputs]]` for numbers and columns of the case, `[design]`,
+and perhaps `outputs`, `[solve]`, `[run]`, `[tracking]` and `[figure]`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, model_validator
+
+from antinode.errors import InputError
+from antinode.inputs.explain import validate
+from antinode.inputs.reading import read_beside_case, read_cells
+from antinode.inputs.units import Frozen, Length, Number, Unit
+from antinode.text import short
+from antinode.vehicle.case import Case, load_case
+
+Quantity = float | str
+"""A number, or a text with the unit of the key that it belongs to."""
+MOST_CASES = 100_000_000
+MOST_VALUES = 1_000_000
+
+LOAD_OUTPUTS = {
+    "sigma": ("1", "cavitation number"),
+    "cavity_length": ("m", "length of the cavity"),
+    "cavity_diameter": ("m", "largest diameter of the cavity"),
+    "F_CX": ("N", "drag of the cavitator, aft"),
+    "F_CY": ("N", "lift of the cavitator, up"),
+    "F_fX": ("N", "drag of all fins, aft"),
+    "F_fY": ("N", "lift of all fins, up"),
+    "F_PX": ("N", "planing drag, aft"),
+    "F_PY": ("N", "planing lift, up"),
+    "x_P": ("m", "where the planing forces act"),
+    "mass": ("kg", "mass of the body"),
+    "x_M": ("m", "centre of mass from the nose"),
+    "a_X": ("m/s^2", "acceleration, forward"),
+    "a_Y": ("m/s^2", "acceleration of the centre of mass, up"),
+    "beta": ("rad/s^2", "angular acceleration, nose-up"),
+}
+"""Unit and meaning of the outputs that have one number a case."""
+MODE_OUTPUTS = {
+    "frequency_hz": ("Hz", "natural frequency; NaN where divergent or not solved"),
+    "error_hz": ("Hz", "the frequency lies within this of frequency_hz"),
+    "omega2": ("rad^2/s^2", "eigenvalue"),
+    "growth_rate_per_s": ("1/s", "growth rate of a divergent mode; NaN where omega2 >= 0"),
+}
+"""Unit and meaning of the outputs that have one number a mode."""
+OutputName = Literal[
+    "frequency_hz",
+    "error_hz",
+    "omega2",
+    "growth_rate_per_s",
+    "sigma",
+    "cavity_length",
+    "cavity_diameter",
+    "F_CX",
+    "F_CY",
+    "F_fX",
+    "F_fY",
+    "F_PX",
+    "F_PY",
+    "x_P",
+    "mass",
+    "x_M",
+    "a_X",
+    "a_Y",
+    "beta",
+]
+
+
+class StudyInput(Frozen):
+    """A number or a column of the case that varies, or the time of a history."""
+
+    key: str = Field(
+        min_length=1,
+        max_length=200,
+        description="its path, e.g. condition.speed, or a column, e.g. bending_stiffness, or time",
+    )
+    name: str | None = Field(
+        default=None, max_length=60, description="of its coordinate; by default the key's last part"
+    )
+    values: tuple[Quantity, ...] | None = Field(
+        default=None, max_length=MOST_VALUES, description="its values (grid, zip)"
+    )
+    low: Quantity | None = Field(default=None, description="lower end of its range")
+    high: Quantity | None = Field(default=None, description="upper end of its range")
+    number: int | None = Field(
+        default=None, ge=1, le=MOST_VALUES, strict=True, description="of values from low to high"
+    )
+    spacing: Literal["linear", "log"] = Field(
+        default="linear", description="of the values from low to high"
+    )
+    distribution: Literal["uniform", "loguniform", "normal", "lognormal", "triangular"] = Field(
+        default="uniform",
+        description="of random, latin_hypercube and sobol; low and high cut a normal one",
+    )
+    mean: Quantity | None = Field(
+        default=None,
+        description="of normal (median of lognormal, peak of triangular); by default the case's",
+    )
+    sd: Quantity | None = Field(
+        default=None, description="of normal; of lognormal that of the logarithm"
+    )
+    factor: bool = Field(default=False, description="whether it multiplies the case's value")
+    control_points: int | tuple[Length, ...] | None = Field(
+        default=None,
+        description="of a column: number of even points or their x [m], each a factor of its own",
+    )
+    interpolation: Literal["linear", "cubic"] = Field(
+        default="cubic", description="of the factor's logarithm between control points"
+    )
+
+    @model_validator(mode="after")
+    def _check_choice(self) -> Self:
+        points = self.control_points
+        if isinstance(points, int) and not 1 <= points <= 200:
+            raise ValueError(f"control_points is {points}; 1 to 200 are allowed")
+        if isinstance(points, tuple) and (not points or any(b <= a for a, b in pairwise(points))):
+            raise ValueError("control_points must increase from the nose aft: sort them")
+        if self.values is not None and not self.values:
+            raise ValueError("values is empty; give one at the least")
+        if self.values is not None and (self.low is not None or self.number is not None):
+            raise ValueError("give values, or low, high and number: one of the two")
+        return self
+
+
+class Design(Frozen):
+    """How the inputs vary together."""
+
+    kind: Literal["grid", "zip", "random", "latin_hypercube", "sobol", "saltelli"] = Field(
+        default="grid",
+        description="every combination; side by side, as in a table or a time history; or samples "
+        "(saltelli: those of antinode sensitivity, number times inputs + 2)",
+    )
+    number: int | None = Field(
+        default=None, ge=1, strict=True, description="of samples (random, latin_hypercube, sobol)"
+    )
+    seed: int = Field(default=0, ge=0, strict=True, description="of the samples")
+    table: str | None = Field(
+        default=None,
+        min_length=1,
+        description="CSV file with a column for each input, in place of [[inputs]] (zip)",
+    )
+
+
+class StudySolve(Frozen):
+    """What to solve, and how well."""
+
+    modes: int = Field(default=6, ge=1, le=100, strict=True, description="modes of each family")
+    tolerance: Annotated[Number, Field(ge=1e-11, le=0.1)] = Field(
+        default=1e-6, description="relative error of a frequency by what varies inside segments"
+    )
+    families: tuple[Literal["bending", "longitudinal"], ...] = Field(
+        default=("bending",), min_length=1, max_length=2, description="families of modes"
+    )
+
+
+class Run(Frozen):
+    """How the work is divided; it belongs to the study, and the numbers depend on it (barely)."""
+
+    chunk: int = Field(
+        default=4096, ge=1, le=100_000, strict=True, description="cases that are solved together"
+    )
+
+
+class Tracking(Frozen):
+    """Whether modes are followed by shape from case to case."""
+
+    track: bool | None = Field(
+        default=None,
+        description="by default in grids, tables and histories of up to 20,000 cases",
+    )
+    points: int = Field(
+        default=41, ge=9, le=501, strict=True, description="where shapes are compared along x"
+    )
+    doubtful: Annotated[Number, Field(ge=0, le=1)] = Field(
+        default=0.6, description="likeness (MAC) of neighbours below which a mode is marked"
+    )
+
+
+class Excitation(Frozen):
+    """A line in the figure: a frequency, or one that goes with the input along the axis."""
+
+    name: str = Field(default="excitation", max_length=60, description="shown beside the line")
+    frequency: Annotated[float, Unit("Hz")] = Field(default=0.0, description="at input 0 [Hz]")
+    slope: Number = Field(default=0.0, description="Hz per SI unit of the input along the axis")
+
+
+class StudyFigure(Frozen):
+    """What `--plot` draws."""
+
+    x: str | None = Field(
+        default=None, max_length=60, description="name of the input along the axis; the first"
+    )
+    band: tuple[Annotated[float, Unit("Hz")], Annotated[float, Unit("Hz")]] | None = Field(
+        default=(20.0, 2000.0), description="frequencies of equipment that are shaded [Hz]"
+    )
+    excitations: tuple[Excitation, ...] = Field(
+        default=(), max_length=20, description="lines whose crossings with modes are marked"
+    )
+
+
+class _Choices(Frozen):
+    name: str = Field(default="", max_length=100, description="shown in figures and tables")
+    inputs: tuple[StudyInput, ...] = Field(default=(), max_length=1000, description="what varies")
+    design: Design = Field(default=Design(), description="how the inputs vary together")
+    outputs: tuple[OutputName, ...] = Field(
+        default=("frequency_hz", "error_hz"), min_length=1, description="what is kept of every case"
+    )
+    solve: StudySolve = Field(default=StudySolve(), description="what to solve, and how well")
+    run: Run = Field(default=Run(), description="how the work is divided")
+    tracking: Tracking = Field(default=Tracking(), description="following modes by shape")
+    figure: StudyFigure = Field(default=StudyFigure(), description="what --plot draws")
+
+
+class StudyFile(_Choices):
+    """The file as it stands in TOML."""
+
+    case: str = Field(min_length=1, description="name of the case file, beside this one")
+
+
+class Study(_Choices):
+    """A case, and what of it varies."""
+
+    case: Case = Field(description="what the inputs are changed in")
+
+
+def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
+    """Read a study file with its case.
+
+    Parameters
+    ----------
+    path : str or Path
+        A TOML file.
+    assignments : iterable of str
+        Overrides of the study file such as ``"design.number=4096"``.
+
+    Raises
+    ------
+    InputError
+        If anything in it is wrong.
+    """
+    path = Path(path)
+    tables, where = read_beside_case(path, assignments, "a study file")
+    file = validate(StudyFile, tables, where)
+    kept: dict[str, Any] = {k: getattr(file, k) for k in _Choices.model_fields}
+    if file.design.table is not None:
+        if file.inputs or file.design.kind != "zip":
+            say = "leave out [[inputs]], and write kind = 'zip'"
+            raise InputError(f"{where}: design.table stands for all inputs; {say}")
+        kept["inputs"] = _read_table(path.parent / file.design.table)
+    return Study(case=load_case(path.parent / file.case), **kept)
+
+
+def _read_table(path: Path) -> tuple[StudyInput, ...]:
+    """Read a table of cases: a header such as ``speed [m/s], thrust [kN]``, then rows."""
+    rows = read_cells(path)
+    if len(rows) < 2:
+        raise InputError(
+            f"{path}: the table has no rows; give a header, then one row for each case"
+        )
+    header, rows = rows[0], rows[1:]
+    inputs = []
+    for c, cell in enumerate(header.cells):
+        key, bracket, unit = cell.partition("[")
+        if not key.strip() or (bracket and not unit.strip().endswith("]")):
+            raise InputError(f"{path}: header: {short(cell)} is no column; write e.g. speed [m/s]")
+        unit = unit.strip().removesuffix("]").strip()
+        values = []
+        for row in rows:
+            if len(row.cells) != len(header.cells):
+                say = f"{len(row.cells)} cells, but {len(header.cells)} in the header"
+                raise InputError(f"{path}, line {row.line}: {say}; give one for each column")
+            values.append(f"{row.cells[c]} {unit}".strip())
+        inputs.append(StudyInput(key=key.strip(), values=tuple(values)))
+    return tuple(inputs)

@@ -1,0 +1,141 @@
+"""The case: a vehicle in an operating condition, read from TOML, with its loads and its beam."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from pydantic import Field
+
+from antinode.arrays import Array, Interpolation
+from antinode.beam.beam import Beam
+from antinode.beam.file import Solve
+from antinode.beam.limits import check_limits
+from antinode.errors import ComputationError, InputError
+from antinode.inputs.explain import validate
+from antinode.inputs.reading import naming, read_tables
+from antinode.inputs.units import Frozen
+
+from .condition import OperatingCondition, Water
+from .loads import Loads, compute_loads
+from .options import Model
+from .vehicle import Section, Vehicle
+
+COLUMNS = (
+    "x",
+    "mass_per_length",
+    "bending_stiffness",
+    "axial_stiffness",
+    "radius",
+    "radius_of_gyration",
+    "wall",
+)
+
+
+_BEYOND = (
+    "the loads are too large or too small for numbers; check the case for values of a wrong unit"
+)
+
+
+class Case(Frozen):
+    """A vehicle in a condition, with all choices made."""
+
+    vehicle: Vehicle = Field(description="stations, cavitator, fins")
+    condition: OperatingCondition = Field(description="how the vehicle moves")
+    water: Water = Field(default=Water(), description="the water; by default fresh, of 20 C")
+    model: Model = Field(default=Model(), description="choices that the equations leave open")
+    solve: Solve = Field(default=Solve(), description="what to compute, and how well")
+
+    @cached_property
+    def loads(self) -> Loads:
+        """Cavity, forces, accelerations and internal forces in this condition."""
+        try:
+            loads = compute_loads(self.vehicle, self.condition, self.water, self.model)
+        except (OverflowError, ZeroDivisionError) as error:
+            raise ComputationError(_BEYOND) from error
+        if not np.all(np.isfinite([*loads.body, *loads.axial_jump])):
+            raise ComputationError(_BEYOND)
+        return loads
+
+    def beam(self) -> Beam:
+        """Return the free-free beam under the axial force of this condition."""
+        return vehicle_beam(self.vehicle, self.loads, self.condition.burn_fraction)
+
+
+def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float) -> Beam:
+    """Return a vehicle as a free-free beam under the axial force of its loads.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    loads : Loads
+        ``N(x) = axial_jump + axial_inertia * (mass ahead of x)`` between its breakpoints.
+    burn_fraction : float
+        0 the first mass state, 1 the last.
+    """
+    section = vehicle.section(loads.breakpoints, burn_fraction)
+    steps = np.repeat(loads.axial_jump[:, None], 2, axis=1)
+    return Beam(
+        x=loads.breakpoints,
+        mass_per_length=section.mass_per_length,
+        bending_stiffness=section.bending_stiffness,
+        axial_stiffness=section.axial_stiffness,
+        axial_force=steps,
+        axial_acceleration=loads.axial_inertia,
+        interpolation=_interpolation(vehicle),
+        radius_of_gyration=radius_of_gyration(section),
+        name=vehicle.name,
+    )
+
+
+def _interpolation(vehicle: Vehicle) -> Interpolation:
+    """Return how the columns run, once linear parts may have been added to stepped stations."""
+    linear = any(part.interpolation == "linear" for part in vehicle.masses)
+    return "linear" if linear else vehicle.interpolation
+
+
+def radius_of_gyration(section: Section) -> Array | None:
+    """Return the radius of gyration of the cross-section: as given, or of the hull's tube [m].
+
+    ``r^2 = (R^2 + (R - t)^2)/4`` with outer radius R and wall t; None if neither is given (the beam
+    then takes sqrt(EI/EA)).
+    """
+    if section.radius_of_gyration is not None:
+        return section.radius_of_gyration
+    if section.wall is None:
+        return None
+    inner = np.maximum(section.radius - section.wall, 0.0)
+    return np.asarray(np.sqrt((section.radius**2 + inner**2) / 4))
+
+
+def load_case(path: str | Path, assignments: Iterable[str] = ()) -> Case:
+    """Read a case file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A TOML file.
+    assignments : iterable of str
+        Overrides such as ``"condition.speed=100m/s"``.
+
+    Returns
+    -------
+    Case
+
+    Raises
+    ------
+    InputError
+        If anything in it is wrong.
+    ComputationError
+        If the loads are beyond what numbers can hold.
+    """
+    path = Path(path)
+    tables, where, elsewhere = read_tables(path, assignments, "vehicle", COLUMNS)
+    if "beam" in tables and "vehicle" not in tables:
+        raise InputError(f"{path}: this is a beam file; use 'antinode beam {path}'")
+    case = validate(Case, tables, where, elsewhere)
+    with naming(where):
+        check_limits(case.beam())
+    return case

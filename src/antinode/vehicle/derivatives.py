@@ -1,0 +1,331 @@
+"""Derivatives of the eigenvalues of a vehicle by its columns, its forces and their places.
+
+With a mode Y of unit modal mass, to first order and exactly
+
+    d(omega^2) = int dEI Y''^2 - int dN Y'^2 - omega^2 int dm Y^2,
+
+and moving the place x_i of a drag F_i changes omega^2 by F_i Y'(x_i)^2 (compression and drag aft
+are positive). N is linear in the forces, and goes with the mass ahead through the acceleration:
+
+    N(x) = sum_i F_i [x > x_i] + a_X m_ahead(x),   a_X = (T - sum_i F_i) / m.
+
+Longitudinally d(omega^2) = int dEA X'^2 - omega^2 int dm X^2. The integrals are sums over Gauss
+points of every uniform segment, with the exact solution between its ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.arrays import Array, Interpolation
+from antinode.beam.beam import Beam
+from antinode.modes.kernel import shapes_for
+from antinode.riccati.chain import Chain, Family, largest_wave_number
+from antinode.riccati.shapes import propagate
+
+from .loads import Loads, PointForce
+
+_SHORT = 0.5  # wave number times length up to which three points integrate squares to 1e-9
+
+
+def _gauss(points: int) -> tuple[Array, Array]:
+    """Return Gauss nodes and weights on 0 ... 1."""
+    nodes, weights = np.polynomial.legendre.leggauss(points)
+    return (nodes + 1) / 2, weights / 2
+
+
+_FEW, _MANY, _FINE = _gauss(3), _gauss(8), _gauss(12)
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Eigenvalues of one family on a chain, with what the derivatives need of their shapes.
+
+    Attributes
+    ----------
+    chain : Chain
+    omega2 : array, shape (k,)
+        [rad^2/s^2].
+    """
+
+    chain: Chain
+    omega2: Array
+
+    @property
+    def family(self) -> Family:
+        """Bending or longitudinal."""
+        return self.chain.family
+
+    @cached_property
+    def states(self) -> Array:
+        """At the nodes, up to one factor for each mode, shape (n + 1, k, s)."""
+        solver = shapes_for(len(self.chain.length), len(self.omega2))
+        one = np.ones(len(self.omega2), dtype=np.int64)
+        return np.asarray(solver.mode_states(self.chain, self.omega2, one))
+
+    @cached_property
+    def _rule(self) -> tuple[Array, Array]:
+        """Gauss nodes and weights for every segment."""
+        wave = largest_wave_number(self.chain, float(np.max(np.abs(self.omega2))))
+        return _FEW if np.max(wave * self.chain.length) < _SHORT else _MANY
+
+    @cached_property
+    def x(self) -> Array:
+        """Gauss points of all segments, from the nose aft [m], shape (q,)."""
+        nodes = self.chain.nodes
+        return np.asarray((nodes[:-1, None] + self.chain.length[:, None] * self._rule[0]).ravel())
+
+    @cached_property
+    def _at_points(self) -> Array:
+        """States at the Gauss points, shape (q, k, s)."""
+        start, length = self.states[:-1], self.chain.length
+        parts = [propagate(self.chain, start, self.omega2, t * length) for t in self._rule[0]]
+        return np.stack(parts, axis=1).reshape(len(self.x), *start.shape[1:])
+
+    @cached_property
+    def _weights(self) -> Array:
+        return np.asarray((self.chain.length[:, None] * self._rule[1]).ravel())
+
+    @cached_property
+    def _modal_mass(self) -> Array:
+        mass = np.repeat(self.chain.mass, len(self._rule[0])) * self._weights
+        return np.asarray(mass @ self._at_points[..., 0] ** 2)
+
+    @cached_property
+    def by_mass(self) -> Array:
+        """Weights of dm(x) in d(omega^2), without its share in N, shape (q, k)."""
+        square = self._weights[:, None] * self._at_points[..., 0] ** 2
+        return np.asarray(-self.omega2 * square / self._modal_mass)
+
+    @cached_property
+    def by_axial_force(self) -> Array:
+        """Weights of dN(x), shape (q, k); zero longitudinally."""
+        if self.family == "longitudinal":
+            return np.zeros((len(self.x), len(self.omega2)))
+        square = self._weights[:, None] * self._at_points[..., 1] ** 2
+        return np.asarray(-square / self._modal_mass)
+
+    def by_stiffness(self, stiffness: Array) -> Array:
+        """Weights of dEI(x) or dEA(x), given what it is at the Gauss points, shape (q, k)."""
+        force = self._at_points[..., 2 if self.family == "bending" else 1]
+        square = self._weights[:, None] * (force / stiffness[:, None]) ** 2
+        return np.asarray(square / self._modal_mass)
+
+    def at(self, x: Array) -> Array:
+        """Return the states at places between nose and tail [m], shape (points, k, s)."""
+        nodes = self.chain.nodes
+        k = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, len(nodes) - 2)
+        return propagate(self.chain, self.states[k], self.omega2, x - nodes[k], k)
+
+    def displacement(self, x: Array) -> Array:
+        """Return the displacements of the modes at places [m], to any scale, (points, k)."""
+        return np.asarray(self.at(x)[..., 0])
+
+    def slope_squared(self, x: float) -> Array:
+        """Return Y'^2 over the modal mass at a place between nose and tail, shape (k,)."""
+        return np.asarray(self.at(np.array([x]))[0, :, 1] ** 2 / self._modal_mass)
+
+
+class Hats(NamedTuple):
+    """How a column between the stations follows each of its rows, shape (q, stations)."""
+
+    value: Array
+    """Derivative of the value at a point by every row."""
+    ahead: Array
+    """Integral of the same from the nose to the point; the last row is the whole body's."""
+
+
+def hats(x: Array, stations: Array, column: Array, how: Interpolation) -> Hats:
+    """Return how the values of a column at `x`, and their integrals, depend on its rows.
+
+    Parameters
+    ----------
+    x : array, shape (q,)
+        Points [m].
+    stations, column : array, shape (s,)
+        Where the rows stand [m], and their values.
+    how : {"step", "linear", "log"}
+    """
+    k = np.clip(np.searchsorted(stations, x, side="right") - 1, 0, len(stations) - 2)
+    size = np.diff(stations)
+    return Hats(
+        _hat(k, (x - stations[k]) / size[k], column, how), _integrals(x, stations, column, how)
+    )
+
+
+def _hat(k: npt.NDArray[np.int64], t: Array, column: Array, how: Interpolation) -> Array:
+    """Return the derivatives at a fraction `t` of the intervals `k`, shape (..., stations)."""
+    rows = np.arange(len(column))
+    first, second = rows == k[..., None], rows == k[..., None] + 1
+    if how == "step":
+        return np.where(first, 1.0, 0.0)
+    t = t[..., None]
+    if how == "linear":
+        return np.asarray((1 - t) * first + t * second)
+    value = (column[k] * (column[k + 1] / column[k]) ** t[..., 0])[..., None]
+    return np.asarray(value * ((1 - t) * first + t * second) / column)
+
+
+def _integrals(x: Array, stations: Array, column: Array, how: Interpolation) -> Array:
+    points = np.append(x, stations[-1])
+    size = np.diff(stations)
+    every = np.arange(len(size))
+    whole = _partial(every, np.ones(len(size)), column, how) * size[:, None]
+    before = np.concatenate([np.zeros((1, len(column))), np.cumsum(whole, axis=0)])
+    k = np.clip(np.searchsorted(stations, points, side="right") - 1, 0, len(size) - 1)
+    t = (points - stations[k]) / size[k]
+    return np.asarray(before[k] + _partial(k, t, column, how) * size[k][:, None])
+
+
+def _partial(k: npt.NDArray[np.int64], t: Array, column: Array, how: Interpolation) -> Array:
+    """Integrate the derivatives over the first part of intervals, over the intervals' lengths."""
+    rows, part = np.arange(len(column)), t[:, None]
+    first, second = rows == k[:, None], rows == k[:, None] + 1
+    if how == "step":
+        return np.asarray(part * first)
+    if how == "linear":
+        return np.asarray((part - part**2 / 2) * first + part**2 / 2 * second)
+    nodes, weights = _FINE
+    inner = _hat(np.repeat(k[:, None], len(nodes), axis=1), part * nodes, column, how)
+    return np.asarray(np.einsum("g,qgs->qs", weights, inner) * part)
+
+
+class ForceChange(NamedTuple):
+    """How a force and its place change with a parameter."""
+
+    name: str
+    drag: float
+    """[N] for each unit of the parameter."""
+    place: float
+    """[m] for each unit of the parameter."""
+
+
+class MassChange(NamedTuple):
+    """How the mass per length, and the mass ahead, change with a parameter."""
+
+    density: Callable[[Array], Array]
+    ahead: Callable[[Array], Array]
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """Derivatives of the eigenvalues of one family of a vehicle in a condition.
+
+    Attributes
+    ----------
+    modes : Modes
+    beam : Beam
+    loads : Loads
+    """
+
+    modes: Modes
+    beam: Beam
+    loads: Loads
+
+    @cached_property
+    def _length(self) -> float:
+        return float(self.beam.x[-1])
+
+    @cached_property
+    def _interval(self) -> npt.NDArray[np.int64]:
+        """Interval of the beam in which every Gauss point lies."""
+        found = np.searchsorted(self.beam.x, self.modes.x, side="right") - 1
+        return np.asarray(np.clip(found, 0, len(self.beam.x) - 2))
+
+    @cached_property
+    def _exact(self) -> bool:
+        """Whether N follows the mass ahead inside intervals, and steps at the forces."""
+        return self.loads.axial_model == "exact"
+
+    def _seen_ahead(self, ahead: Callable[[Array], Array]) -> Array:
+        """Return the mass ahead as N sees it at the Gauss points, or the mean of the interval."""
+        if self._exact:
+            return ahead(self.modes.x)
+        ends = ahead(self.beam.x)
+        return np.asarray((ends[:-1] + ends[1:]) / 2)[self._interval]
+
+    @cached_property
+    def _share_ahead(self) -> Array:
+        """Share of the mass that lies ahead, as N sees it, shape (q,)."""
+        distribution = self.loads.mass_distribution
+        return self._seen_ahead(lambda x: distribution.moments(x)[0]) / self.loads.mass
+
+    @cached_property
+    def by_thrust(self) -> Array:
+        """[rad^2/s^2/N], shape (k,)."""
+        return np.asarray(self._share_ahead @ self.modes.by_axial_force)
+
+    def by_force(self, change: ForceChange) -> Array:
+        """Return d(omega^2) for each unit of the parameter that changes a force, shape (k,)."""
+        force = next((f for f in self.loads.forces if f.name == change.name), None)
+        if force is None or self.modes.family == "longitudinal":
+            return np.zeros(len(self.modes.omega2))
+        steps = self._steps(change.name)[self._interval] - self._share_ahead
+        by_drag = steps @ self.modes.by_axial_force
+        total = change.drag * by_drag
+        if self._exact and change.place and force.x > 0:
+            total = total + change.place * force.F_X * self.modes.slope_squared(force.x)
+        return np.asarray(total)
+
+    def _steps(self, name: str) -> Array:
+        """Return N of a unit drag of this name without acceleration, in every interval."""
+        unit = [f._replace(F_X=float(f.name == name), F_Y=0.0) for f in self.loads.forces]
+        alone: Loads = replace(
+            self.loads,
+            F_CX=unit[0].F_X,
+            forces=tuple(unit),
+            body=self.loads.body._replace(a_X=0.0),
+        )
+        return alone.axial_jump
+
+    def by_mass(self, change: MassChange) -> Array:
+        """Return d(omega^2) for each unit of a parameter that changes the mass, shape (k,)."""
+        return self._by_mass(
+            change.density(self.modes.x),
+            self._seen_ahead(change.ahead),
+            change.ahead(np.array([self._length]))[0],
+        )
+
+    def _by_mass(self, density: Array, ahead: Array, total: Array) -> Array:
+        """Return density and what it does to N, put together; shape (k,) or (rows, k)."""
+        force = self.loads.a_X * (ahead.T - np.multiply.outer(total, self._share_ahead))
+        return np.asarray(density.T @ self.modes.by_mass + force @ self.modes.by_axial_force)
+
+    def by_mass_rows(self, stations: Array, column: Array, how: Interpolation) -> Array:
+        """Return derivatives by the rows of the column of mass per length, shape (stations, k)."""
+        at_points = hats(self.modes.x, stations, column, how)
+        ahead = at_points.ahead[:-1]
+        if not self._exact:
+            ends = _integrals(self.beam.x, stations, column, how)[:-1]
+            ahead = ((ends[:-1] + ends[1:]) / 2)[self._interval]
+        return self._by_mass(at_points.value, ahead, at_points.ahead[-1])
+
+    def by_stiffness_rows(self, stations: Array, column: Array, how: Interpolation) -> Array:
+        """Return derivatives by the rows of the column of EI or EA, shape (stations, k)."""
+        k = np.clip(np.searchsorted(stations, self.modes.x, "right") - 1, 0, len(stations) - 2)
+        t = (self.modes.x - stations[k]) / np.diff(stations)[k]
+        value = column[k]
+        if how != "step":
+            far = column[k + 1]
+            value = value * (far / value) ** t if how == "log" else value + (far - value) * t
+        return np.asarray(_hat(k, t, column, how).T @ self.modes.by_stiffness(value))
+
+
+def force_changes(
+    lower: tuple[PointForce, ...], upper: tuple[PointForce, ...], step: float
+) -> tuple[ForceChange, ...]:
+    """Return how forces and places change, from those at both ends of a step of a parameter."""
+    low, high = ({f.name: f for f in forces} for forces in (lower, upper))
+    changes = []
+    for name in low | high:
+        a, b = low.get(name), high.get(name)
+        drag = ((b.F_X if b else 0.0) - (a.F_X if a else 0.0)) / step
+        place = (b.x - a.x) / step if a and b else 0.0
+        changes.append(ForceChange(name, drag, place))
+    return tuple(changes)

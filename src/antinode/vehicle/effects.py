@@ -1,0 +1,201 @@
+"""What one number or column of a case does to its eigenvalues, to first order.
+
+Columns of the stations and the thrust act directly (`derivatives.py`). Every other number acts
+through forces, their places and the mass; how these change with it is a difference of the load
+model alone, so that no eigenvalue is solved anew.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from antinode.arrays import Array
+
+from .case import Case
+from .columns import column_values
+from .derivatives import ForceChange, MassChange, Sensitivity, force_changes
+from .loads import PointForce, point_forces
+from .paths import Keys, Place, replaced, value_at
+
+_STEP = 2e-6
+_STATIONS = ("vehicle", "stations")
+_MASSES = ("vehicle", "masses")
+_MASS = "mass_per_length"
+_STIFFNESS = {"bending_stiffness": "bending", "axial_stiffness": "longitudinal"}
+"""Columns of stiffness, and the family that each of them belongs to."""
+_BURN = ("condition", "burn_fraction")
+_THRUST = ("condition", "thrust")
+_BESIDE_THE_HULL = (
+    ("vehicle", "fins"),
+    ("condition", "fin_position"),
+    ("condition", "extra_drag"),
+    ("condition", "extra_drag_position"),
+)
+"""Where numbers stand that neither cavity nor planing depend on."""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What one number of a case changes, for each unit of it.
+
+    Attributes
+    ----------
+    case : Case
+    thrust : float
+        [N].
+    row : (str, int) or None
+        A column of the stations and its row, which the number is.
+    forces : tuple of ForceChange
+    mass : MassChange or None
+    """
+
+    case: Case
+    thrust: float = 0.0
+    row: tuple[str, int] | None = None
+    forces: tuple[ForceChange, ...] = ()
+    mass: MassChange | None = None
+
+    def slope(self, sensitivity: Sensitivity) -> Array:
+        """Return d(omega^2) of every mode for each unit of the number, shape (k,)."""
+        total = self.thrust * sensitivity.by_thrust
+        if self.row is not None:
+            column, row = self.row
+            total = total + by_rows(self.case, column, sensitivity)[row]
+        for change in self.forces:
+            total = total + sensitivity.by_force(change)
+        if self.mass:
+            total = total + sensitivity.by_mass(self.mass)
+        return np.asarray(total)
+
+
+def effect_of_number(case: Case, place: Place, size: float | None = None) -> Effect:
+    """Return what a number of a case changes, by a small step around its value.
+
+    Parameters
+    ----------
+    case : Case
+    place : Place
+        Of a number that has a value.
+    size : float, optional
+        Natural step of a number that is zero; by default a quarter of what is allowed, or 1.
+    """
+    value = value_at(case, place.keys)
+    assert value is not None
+    size = _natural_size(place) if size is None else size
+    (effect,) = effects_between(case, place, _around(value, size, place))
+    return effect
+
+
+def effects_between(case: Case, place: Place, values: Sequence[float]) -> list[Effect]:
+    """Return what a number changes over each interval between increasing values of it."""
+    keys = place.keys
+    if keys == _THRUST:
+        return [Effect(case, thrust=1.0)] * (len(values) - 1)
+    if keys[:2] == _STATIONS and keys[2] != "radius":
+        row = _column(keys[2:-1]), int(keys[-1])
+        return [Effect(case, row=row)] * (len(values) - 1)
+    base = _without_planing(case) if keys[:2] in _BESIDE_THE_HULL else case
+    cases = [replaced(base, keys, value) for value in values]
+    forces = [_forces(c) for c in cases]
+    steps = [high - low for low, high in pairwise(values)]
+    masses: list[MassChange | None] = [None] * len(steps)
+    if keys == _BURN or keys[:2] == _MASSES:
+        masses = [
+            _mass_change(*two, step) for two, step in zip(pairwise(cases), steps, strict=True)
+        ]
+    return [
+        Effect(case, forces=force_changes(*two, step), mass=mass)
+        for two, step, mass in zip(pairwise(forces), steps, masses, strict=True)
+    ]
+
+
+def effect_of_radius(case: Case, weights: Array) -> Effect:
+    """Return what a growth of the radius changes, given its logarithm's growth at every row."""
+    radius = case.vehicle.stations.radius
+    low, high = (
+        _forces(replaced(case, (*_STATIONS, "radius"), radius * np.exp(sign * _STEP * weights)))
+        for sign in (-1, 1)
+    )
+    return Effect(case, forces=force_changes(low, high, 2 * _STEP))
+
+
+def by_logarithm(case: Case, keys: Keys, sensitivity: Sensitivity) -> Array:
+    """Return derivatives by the logarithms of a column's rows, shape (stations, k).
+
+    Parameters
+    ----------
+    case : Case
+    keys : tuple
+        From the stations to a column of mass or stiffness.
+    sensitivity : Sensitivity
+    """
+    column = column_values(case.vehicle.stations, keys)
+    return by_rows(case, _column(keys), sensitivity) * column[:, None]
+
+
+def by_rows(case: Case, key: str, sensitivity: Sensitivity) -> Array:
+    """Return derivatives by the rows of a column such as ``mass_per_length:burnt``."""
+    vehicle = case.vehicle
+    stations, how = vehicle.stations, vehicle.interpolation
+    name, _, state = key.partition(":")
+    if name == _MASS:
+        burnt = case.condition.burn_fraction
+        share = _share(state, list(stations.mass_per_length), burnt)
+        if share:
+            column = vehicle.mass_per_length(burnt)
+            return share * sensitivity.by_mass_rows(stations.x, column, how)
+    elif _STIFFNESS.get(name) == sensitivity.modes.family:
+        return sensitivity.by_stiffness_rows(stations.x, column_values(stations, (name,)), how)
+    return np.zeros((len(stations.x), len(sensitivity.modes.omega2)))
+
+
+def _column(keys: Keys) -> str:
+    return ":".join(map(str, keys))
+
+
+def _share(state: str, states: Sequence[str], burn_fraction: float) -> float:
+    """Return the share of a mass state at a burn fraction."""
+    place = burn_fraction * (len(states) - 1)
+    return max(0.0, 1.0 - abs(place - states.index(state)))
+
+
+def _without_planing(case: Case) -> Case:
+    """Return the case without the planing forces, the dearest part of the loads."""
+    return replaced(case, ("model", "planing"), "none")
+
+
+def _forces(case: Case) -> tuple[PointForce, ...]:
+    return point_forces(case.vehicle, case.condition, case.water, case.model)
+
+
+def _natural_size(place: Place) -> float:
+    width = place.high - place.low
+    return width / 4 if math.isfinite(width) else 1.0
+
+
+def _around(value: float, size: float, place: Place) -> tuple[float, float]:
+    """Return a small step around a value, on one side where the other is not allowed."""
+    step = _STEP * (abs(value) or size)
+    low, high = value - step, value + step
+    if low < place.low or (place.strict and low <= place.low):
+        low = value
+    if high > place.high:
+        high = value
+    return low, high
+
+
+def _mass_change(before: Case, after: Case, step: float) -> MassChange:
+    low, high = (c.vehicle.mass_distribution(c.condition.burn_fraction) for c in (before, after))
+
+    def difference(function: Callable[[int, Array], Array]) -> Callable[[Array], Array]:
+        return lambda x: np.asarray((function(1, x) - function(0, x)) / step)
+
+    both = (low, high)
+    return MassChange(
+        difference(lambda i, x: both[i].at(x)), difference(lambda i, x: both[i].moments(x)[0])
+    )

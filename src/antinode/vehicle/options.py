@@ -1,0 +1,76 @@
+"""Every choice that the equations leave open, by name, with its default.
+
+The reasons stand in docs/theory/hydrodynamics.md and docs/theory/loads.md.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from antinode.inputs.units import Frozen, Number
+
+
+class Model(Frozen):
+    """Options of the hydrodynamic and the load model (table `[model]` of a case)."""
+
+    gravity_rise: Literal["paper", "buoyancy", "none"] = Field(
+        default="paper",
+        description="rise h_g of the cavity axis: eq. 10, momentum of the buoyancy, or none",
+    )
+    gravity_rise_length: Literal["half_cavity", "cavity", "cavitator", "body"] = Field(
+        default="half_cavity",
+        description="length that makes the dimensionless h_g of eq. 10 a length: half the cavity, "
+        "the whole cavity, the cavitator's diameter, or the body",
+    )
+    gravity_rise_factor: Annotated[Number, Field(ge=0)] = Field(
+        default=1.0, description="factor on h_g, whichever formula it comes from [-]"
+    )
+    distortion: Literal["paper", "none"] = Field(
+        default="paper", description="distortion h_sigma by the cavitator's angle: eq. 13, or none"
+    )
+    distortion_factor: Annotated[Number, Field(ge=0)] = Field(
+        default=1.0, description="factor on h_sigma [-]"
+    )
+    fin_immersion: Literal["radial", "tip_distance"] = Field(
+        default="radial",
+        description="h_f of eq. 14: length of the fin outside the cavity, or distance of its tip "
+        "from the cavity wall",
+    )
+    fin_lift: Literal["plate", "none"] = Field(
+        default="plate", description="lift of the fins: thin plate on the wetted area, or none"
+    )
+    planing: Literal["paper", "none"] = Field(
+        default="paper", description="planing forces: eq. 16 and 17, or none"
+    )
+    planing_area: Literal["arc", "projected"] = Field(
+        default="arc",
+        description="wetted width of eq. 16: the arc of the body outside the cavity, or its chord, "
+        "at most the body's diameter",
+    )
+    planing_position: Literal["centroid", "tail"] = Field(
+        default="centroid",
+        description="where the planing forces act: the centroid of the wetted area, or the tail",
+    )
+    planing_drag_factor: Annotated[Number, Field(ge=0)] = Field(
+        default=1.0, description="factor on the planing drag F_PX of eq. 16 [-]"
+    )
+    planing_angle: Literal["wall", "axis", "attitude"] = Field(
+        default="wall",
+        description="alpha_p of eq. 16: slope between the axes plus that of the cavity wall, slope "
+        "between the axes, or the body angle",
+    )
+    planing_direction_width: Annotated[Number, Field(ge=0)] = Field(
+        default=0.01,
+        description="offset in body radii at which the planing force reaches its full size; it "
+        "passes linearly through zero between the two directions [-]",
+    )
+    axial_force: Literal["exact", "element_midpoint"] = Field(
+        default="exact",
+        description="N along the axis: exact, with steps at the forces, or constant between the "
+        "stations as in eq. 22",
+    )
+    end_force: Literal["fixed_direction"] = Field(
+        default="fixed_direction", description="end forces keep their direction in space"
+    )
