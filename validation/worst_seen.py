@@ -17,7 +17,8 @@ import numpy as np
 from hypothesis import given, settings
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("", "exact", "unit", "invariance")]
+FOLDERS = ("", "exact", "unit/vehicle", "invariance")
+sys.path[:0] = [str(ROOT / "tests" / folder) for folder in FOLDERS]
 
 import hermite  # noqa: E402
 import test_attachments as attached  # noqa: E402

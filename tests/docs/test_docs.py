@@ -233,8 +233,8 @@ def test_every_row_of_the_validation_table_has_its_test_and_every_test_folder_a_
         assert tests, f"the row '{row[0]}' names no test"
         for test in tests:
             assert (ROOT / test).is_file(), f"the row '{row[0]}' names {test}, which is missing"
-    named = {Path(test).parent for tests in files for test in tests}
-    folders = {path.parent.relative_to(ROOT) for path in (ROOT / "tests").rglob("test_*.py")}
+    named = {Path(test).parts[1] for tests in files for test in tests}
+    folders = {path.relative_to(ROOT).parts[1] for path in (ROOT / "tests").rglob("test_*.py")}
     assert folders <= named, f"no row for {folders - named}"
 
 
