@@ -82,10 +82,15 @@ def test_json_holds_everything(folder):
 
 
 def test_an_interrupt_gives_the_best_so_far(folder):
+    """The child takes SIGINT even where these tests run in a shell's background, ignoring it."""
     (folder / "identify.toml").write_text(FILE.replace("[fit]", "[fit]\nstarts = 1000"))
     command = python("identify", folder / "identify.toml", "--json", "-o", folder / "out")
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     ) as process:
         for line in process.stderr:
             if line.startswith("start "):
