@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from .modes.result import ModalResult, Mode
     from .modes.solve import solve_modes
     from .study.identify.file import IdentificationProblem, load_identification
-    from .study.identify.identification import Identification, identify
+    from .study.identify.identification import identify
+    from .study.identify.result import Identification
     from .study.sensitivity.sensitivity import sensitivity
     from .study.sweep.file import Study, load_study
     from .study.sweep.store import open_store
@@ -57,7 +58,7 @@ _HOME = {
     "solve_modes": "modes.solve",
     "ModalResult": "modes.result",
     "Mode": "modes.result",
-    "Identification": "study.identify.identification",
+    "Identification": "study.identify.result",
     "identify": "study.identify.identification",
     "IdentificationProblem": "study.identify.file",
     "load_identification": "study.identify.file",

@@ -15,7 +15,7 @@ from antinode.vehicle.case import Case
 from antinode.vehicle.options import Model
 from antinode.vehicle.vehicle import Stations
 
-from .identification import Identification
+from .result import Identification
 from .tables import comparison_csv, parameter_csv
 
 FILES = (

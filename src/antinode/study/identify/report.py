@@ -13,7 +13,7 @@ from rich.text import Text
 
 from antinode.show.printing import new_table, show_warnings
 
-from .identification import Estimate, Identification
+from .result import Estimate, Identification
 from .words import brief, correlations_text, directions_text
 
 

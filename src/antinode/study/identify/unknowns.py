@@ -19,7 +19,7 @@ from antinode.errors import InputError
 from antinode.inputs.units import to_si
 from antinode.text import short
 from antinode.vehicle.case import Case
-from antinode.vehicle.columns import with_column
+from antinode.vehicle.columns import column_values, with_column
 from antinode.vehicle.paths import Place, find_place, replaced, value_at
 
 from .columns import Column, make_column, second_differences
@@ -147,8 +147,6 @@ class Unknowns:
         return found
 
     def _given(self, key: str) -> Array:
-        from antinode.vehicle.columns import column_values
-
         return column_values(self.case.vehicle.stations, tuple(key.split(":")))
 
     def apply(self, case: Case, vector: Array) -> Case:
