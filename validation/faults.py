@@ -23,7 +23,8 @@ from pathlib import Path
 import numpy as np
 
 import antinode as an
-from antinode.study.sweep.store import TIMESTAMPS, checksum
+from antinode.study.sweep.contents import TIMESTAMPS
+from antinode.study.sweep.store import checksum
 
 HERE = Path(__file__).resolve().parent
 STUDIES = {

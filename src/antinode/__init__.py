@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from .modes.frequencies import Frequencies, natural_frequencies
     from .modes.result import ModalResult, Mode
     from .modes.solve import solve_modes
+    from .study.design.file import Study, load_study
     from .study.identify.file import IdentificationProblem, load_identification
     from .study.identify.identification import identify
     from .study.identify.result import Identification
     from .study.sensitivity.sensitivity import sensitivity
-    from .study.sweep.file import Study, load_study
-    from .study.sweep.store import open_store
+    from .study.sweep.folder import open_store
     from .study.sweep.sweep import sweep
     from .vehicle.case import Case, load_case
     from .vehicle.condition import OperatingCondition, Water
@@ -62,11 +62,11 @@ _HOME = {
     "identify": "study.identify.identification",
     "IdentificationProblem": "study.identify.file",
     "load_identification": "study.identify.file",
-    "Study": "study.sweep.file",
-    "load_study": "study.sweep.file",
+    "Study": "study.design.file",
+    "load_study": "study.design.file",
     "sweep": "study.sweep.sweep",
     "sensitivity": "study.sensitivity.sensitivity",
-    "open_store": "study.sweep.store",
+    "open_store": "study.sweep.folder",
     "Cavitator": "vehicle.vehicle",
     "FinSet": "vehicle.vehicle",
     "Stations": "vehicle.vehicle",

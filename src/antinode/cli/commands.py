@@ -327,7 +327,7 @@ def schema(of: str = "case", /) -> None:
     from antinode.show.schema import input_schema
 
     if of == "study":
-        from antinode.study.sweep.schema import study_schema
+        from antinode.study.design.schema import study_schema
 
         print_json(study_schema())
     elif of == "identify":

@@ -89,8 +89,8 @@ def _of_study(
     tolerance: float | None,
     command: str,
 ) -> tuple[Document, list[str]]:
-    from antinode.study.sweep.file import load_study
-    from antinode.study.sweep.store import import_store
+    from antinode.study.design.file import load_study
+    from antinode.study.sweep.folder import import_store
 
     from .study_report import study_report
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from antinode.study.design.file import Study
+from antinode.study.design.points import Points, points_of
 from antinode.study.sensitivity.sensitivity import SensitivityResult, sensitivity
-from antinode.study.sweep.design import Points, points_of
 from antinode.study.sweep.figures import plot_sweep
-from antinode.study.sweep.file import Study
 from antinode.study.sweep.report import summary
 from antinode.study.sweep.sweep import sweep
 from antinode.text import counted

@@ -26,7 +26,7 @@ _FINEST = 16
 
 
 @dataclass(frozen=True)
-class Response:
+class CaseEigenvalues:
     """Eigenvalues 1, 2, ... of the families that were asked for.
 
     Attributes
@@ -63,9 +63,9 @@ def hertz_slope(omega2: Array) -> Array:
     return np.asarray(1 / (4 * np.pi * size))
 
 
-def respond(
+def eigenvalues_of(
     cases: Sequence[Case], wanted: Sequence[Wanted], refinement: int = 2
-) -> tuple[Response, ...]:
+) -> tuple[CaseEigenvalues, ...]:
     """Compute the eigenvalues 1 ... n of each family that is wanted, of several cases at once.
 
     Raises
@@ -86,7 +86,7 @@ def respond(
         if "longitudinal" in families:
             chain = beams[k].chain("longitudinal", refinement)
             modes[k]["longitudinal"] = Modes(chain, _solve(chain, families["longitudinal"], 1, 1))
-    return tuple(map(Response, cases, [case.loads for case in cases], beams, modes))
+    return tuple(map(CaseEigenvalues, cases, [case.loads for case in cases], beams, modes))
 
 
 def _bending(chains: Sequence[Chain], numbers: Sequence[int]) -> list[Array]:
@@ -125,9 +125,9 @@ def _solve(chain: Chain, number: int, rigid: int, zeros: int) -> Array:
 
 def sufficient_refinement(case: Case, wanted: Wanted, tolerance: float) -> int:
     """Return how finely chains must be divided for frequencies within a relative tolerance."""
-    refinement, (before,) = 1, respond([case], [wanted], 1)
+    refinement, (before,) = 1, eigenvalues_of([case], [wanted], 1)
     while refinement < _FINEST:
-        (after,) = respond([case], [wanted], 2 * refinement)
+        (after,) = eigenvalues_of([case], [wanted], 2 * refinement)
         changes = [np.abs(after.modes[f].omega2 / before.modes[f].omega2 - 1).max() for f in wanted]
         if max(changes) / 2 < tolerance:
             return refinement

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import antinode as an
-from antinode.study.sweep.chunks import case_of
-from antinode.study.sweep.file import LOAD_OUTPUTS
+from antinode.study.cases.values import case_of
+from antinode.study.design.file import LOAD_OUTPUTS
 from antinode.vehicle.loads import compute_loads
 from antinode.vehicle.many_beams import ManyBeams
 from antinode.vehicle.many_loads import compute_many_loads

@@ -15,7 +15,7 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.errors import AntinodeError
 from antinode.riccati.chain import Family
-from antinode.study.eigenvalues import Response, hertz, hertz_slope, respond
+from antinode.study.eigenvalues import CaseEigenvalues, eigenvalues_of, hertz, hertz_slope
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import Sensitivity
 from antinode.vehicle.effects import Effect, by_logarithm, effect_of_number, effect_of_radius
@@ -31,19 +31,19 @@ class Evaluation:
     Attributes
     ----------
     vector : array
-    responses : tuple of Response
+    solved : tuple of CaseEigenvalues
         By row.
     pairings : tuple of dict
         By row and family.
     """
 
     vector: Array
-    responses: tuple[Response, ...]
+    solved: tuple[CaseEigenvalues, ...]
     pairings: tuple[Mapping[Family, Pairing], ...]
 
     def fitted_hz(self, row: int, family: Family) -> Array:
         """Return the frequencies that stand against the observed ones [Hz]."""
-        omega2 = self.responses[row].modes[family].omega2
+        omega2 = self.solved[row].modes[family].omega2
         return hertz(omega2[self.pairings[row][family].index])
 
 
@@ -85,12 +85,12 @@ class Misfit:
             If a row cannot be computed.
         """
         wanted = [row.wanted for row in self.rows]
-        responses = respond(self.cases(vector), wanted, self.refinement)
+        solved = eigenvalues_of(self.cases(vector), wanted, self.refinement)
         pairings = tuple(
-            {family: pair(data, response.modes[family]) for family, data in row.families.items()}
-            for row, response in zip(self.rows, responses, strict=True)
+            {family: pair(data, one.modes[family]) for family, data in row.families.items()}
+            for row, one in zip(self.rows, solved, strict=True)
         )
-        return Evaluation(vector, responses, pairings)
+        return Evaluation(vector, solved, pairings)
 
     def residuals(self, at: Evaluation) -> Array:
         """Return the residuals of the data."""
@@ -107,10 +107,10 @@ class Misfit:
         slopes = self.unknowns.slopes(at.vector)
         blocks = []
         for k, row in enumerate(self.rows):
-            derivative = RowDerivative(self.unknowns, k, at.responses[k], slopes)
+            derivative = RowDerivative(self.unknowns, k, at.solved[k], slopes)
             for family, data in row.families.items():
                 index = at.pairings[k][family].index
-                omega2 = at.responses[k].modes[family].omega2[index]
+                omega2 = at.solved[k].modes[family].omega2[index]
                 block = derivative.by_vector(family)[index]
                 blocks.append(block * (hertz_slope(omega2) / data.sd)[:, None])
         return np.concatenate(blocks)
@@ -122,18 +122,18 @@ class RowDerivative:
 
     unknowns: Unknowns
     row: int
-    response: Response
+    solved: CaseEigenvalues
     slopes: Array
 
     @property
     def case(self) -> Case:
         """The case of the row."""
-        return self.response.case
+        return self.solved.case
 
     def by_vector(self, family: Family) -> Array:
         """Return the derivatives of omega^2 1 ... n of a family, shape (n, entries)."""
-        sensitivity = self.response.sensitivity(family)
-        total = np.zeros((len(self.response.modes[family].omega2), len(self.unknowns.items)))
+        sensitivity = self.solved.sensitivity(family)
+        total = np.zeros((len(self.solved.modes[family].omega2), len(self.unknowns.items)))
         by_column = self._by_logarithms(sensitivity)
         for item in self.unknowns.columns:
             sizes = np.array([u.size for u in self.unknowns.items[item.entries]])

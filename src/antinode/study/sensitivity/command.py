@@ -14,8 +14,8 @@ from antinode.errors import InputError
 from antinode.inputs.reading import read_toml
 from antinode.show.outcome import check_plot, draw, print_json
 from antinode.show.printing import new_table
+from antinode.study.design.file import Study, StudyInput, load_study
 from antinode.study.progress import cases_progress, end_progress
-from antinode.study.sweep.file import Study, StudyInput, load_study
 from antinode.text import counted, short
 from antinode.vehicle.case import load_case
 

@@ -18,10 +18,12 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.errors import AntinodeError, ComputationError, InputError
 from antinode.riccati.chain import Family
-from antinode.study.eigenvalues import respond, sufficient_refinement
-from antinode.study.sweep.chunks import failed, mode_names
-from antinode.study.sweep.design import Points, Variable, points_of
-from antinode.study.sweep.file import Study
+from antinode.study.cases.chunks import mode_names
+from antinode.study.cases.reasons import failed
+from antinode.study.design.file import Study
+from antinode.study.design.points import Points, points_of
+from antinode.study.design.variables import Variable
+from antinode.study.eigenvalues import eigenvalues_of, sufficient_refinement
 from antinode.study.sweep.sweep import sweep
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import Sensitivity
@@ -204,13 +206,13 @@ def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]
     found: dict[str, tuple[float, Array]] = {}
     try:
         refinement = sufficient_refinement(study.case, wanted, 1e-9)
-        (response,) = respond([study.case], [wanted], refinement)
+        (solved,) = eigenvalues_of([study.case], [wanted], refinement)
     except AntinodeError:
         nothing = np.full(len(points.variables), np.nan)
         return dict.fromkeys(mode_names(study), (np.nan, nothing))
     for family, number in wanted.items():
-        omega2 = response.modes[family].omega2
-        exact = response.sensitivity(family)
+        omega2 = solved.modes[family].omega2
+        exact = solved.sensitivity(family)
         by_input = np.stack([_by_input(study.case, exact, v) for v in points.variables], axis=1)
         for k in range(number):
             with np.errstate(all="ignore"):

@@ -16,17 +16,14 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from antinode.errors import ComputationError, InputError
 from antinode.extras import import_extra
+from antinode.study.cases.chunks import Arrays, compute_chunk
+from antinode.study.design.file import Study
+from antinode.study.design.points import Points, points_of
 from antinode.text import short
 
-from .chunks import compute_chunk
-from .design import Points, points_of
-from .file import Study
-
-Arrays = dict[str, npt.NDArray[Any]]
 Done = Iterator[tuple[int, Arrays]]
 _IN_HAND = 3  # chunks that wait for each worker
 _MOST_BREAKS = 20  # pools that may die without a chunk between them

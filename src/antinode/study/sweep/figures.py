@@ -14,9 +14,8 @@ import numpy.typing as npt
 from antinode.arrays import Array
 from antinode.errors import InputError
 from antinode.show.figures import PALETTE, STYLE, pyplot
+from antinode.study.design.file import Study
 from antinode.text import nearest
-
-from .file import Study
 
 if TYPE_CHECKING:
     import xarray

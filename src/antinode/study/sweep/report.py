@@ -13,10 +13,10 @@ from rich.text import Text
 
 from antinode.errors import AntinodeError
 from antinode.show.printing import new_table
+from antinode.study.cases.reasons import PAST_BUCKLING, WHY, failed
+from antinode.study.cases.values import Cases
+from antinode.study.design.points import Points
 from antinode.text import counted
-
-from .chunks import PAST_BUCKLING, WHY, Work, case_of, failed
-from .design import Points
 
 if TYPE_CHECKING:
     import xarray
@@ -91,14 +91,13 @@ def failure_text(points: Points, index: int) -> str:
     chunk = index // points.study.run.chunk
     row = index - points.bounds(chunk)[0]
     values = points.values(chunk)[row : row + 1]
-    work = Work(points.study, points.variables, values, tracked=False)
+    cases = Cases(points.study, points.variables, values)
     told = ", ".join(
         f"{v.name} {x:.6g}{'' if v.unit == '1' else ' ' + v.unit}"
         for v, x in list(zip(points.variables, values[0], strict=True))[:6]
     )
     try:
-        case = case_of(points.study.case, work.numbers, 0)
-        case.beam()
+        cases.case(0).beam()
     except AntinodeError as error:
         return f"{told}: {error}"
     return told

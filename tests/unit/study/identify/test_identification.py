@@ -16,7 +16,7 @@ from validation.identification import (
 )
 
 import antinode as an
-from antinode.study.eigenvalues import respond
+from antinode.study.eigenvalues import eigenvalues_of
 from antinode.study.identify.columns import second_differences
 from antinode.study.identify.fit import Search, robust_cost
 from antinode.study.identify.fitted_case import case_toml, stations_csv, write_identification
@@ -159,7 +159,7 @@ def test_columns_interpolate_and_second_differences_vanish_on_lines():
 
 
 def test_the_response_agrees_with_solve_modes(case):
-    (found,) = respond([case], [{"bending": 6, "longitudinal": 2}], 4)
+    (found,) = eigenvalues_of([case], [{"bending": 6, "longitudinal": 2}], 4)
     result = an.solve_modes(case, 6, tolerance=1e-9)
     for family, number in (("bending", 6), ("longitudinal", 2)):
         exact = result.frequencies_hz(family)[:number]
@@ -346,8 +346,8 @@ def test_shapes_pair_modes_by_mac(case):
         case=case, observations=[row], parameters=[{"key": "thrust", "start": "49 kN"}]
     )
     misfit = prepare(problem)
-    (response,) = misfit.evaluate(misfit.unknowns.start).responses
-    found = pair(misfit.rows[0].families["bending"], response.modes["bending"])
+    (solved,) = misfit.evaluate(misfit.unknowns.start).solved
+    found = pair(misfit.rows[0].families["bending"], solved.modes["bending"])
     assert found.index.tolist() == [0, 2]
     assert np.all(found.mac > 0.999)
     fitted = an.identify(problem)

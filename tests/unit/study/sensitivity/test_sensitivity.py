@@ -7,11 +7,11 @@ import pytest
 from scipy.stats import sobol_indices as scipy_indices
 
 import antinode as an
+from antinode.study.cases.values import case_of
+from antinode.study.design.points import points_of
 from antinode.study.sensitivity.command import read_uncertain
 from antinode.study.sensitivity.indices import sobol_indices
 from antinode.study.sensitivity.sensitivity import local_slopes, sensitivity
-from antinode.study.sweep.chunks import case_of
-from antinode.study.sweep.design import points_of
 from cli_run import refused, run
 
 

@@ -14,7 +14,8 @@ import xarray
 
 import antinode as an
 from antinode.study.sweep import store as store_module
-from antinode.study.sweep.store import TIMESTAMPS, locked
+from antinode.study.sweep.contents import TIMESTAMPS
+from antinode.study.sweep.lock import locked
 from antinode.study.sweep.sweep import sweep
 from cli_run import contents, python, refused, run
 
@@ -165,7 +166,7 @@ def test_a_store_of_another_case_or_version_is_refused(folder, whole, study, tmp
     other = an.load_study(tmp_path / "other" / "samples.toml", SMALL[1::2])
     with pytest.raises(an.InputError, match="another case"):
         sweep(other, whole)
-    monkeypatch.setattr("antinode.study.sweep.sweep.__version__", "9.9.9")
+    monkeypatch.setattr("antinode.study.sweep.contents.__version__", "9.9.9")
     with pytest.raises(an.InputError, match=r"another version .* \(0.1.0, this is 9.9.9\)"):
         sweep(study, whole)
 
@@ -229,7 +230,7 @@ def test_a_broken_writer_leaves_no_half_made_store(study, tmp_path, monkeypatch)
 
 
 def test_a_clock_that_goes_backwards_changes_nothing(study, whole, tmp_path, monkeypatch):
-    monkeypatch.setattr("antinode.study.sweep.sweep._now", lambda: "1970-01-01T00:00:00+00:00")
+    monkeypatch.setattr("antinode.study.sweep.contents._now", lambda: "1970-01-01T00:00:00+00:00")
     path = tmp_path / "s.zarr"
     with pytest.raises(StoppedError):
         sweep(study, path, progress=stop_after(2))

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import antinode as an
-from antinode.study.sweep.chunks import case_of
-from antinode.study.sweep.design import points_of
+from antinode.study.cases.values import case_of
+from antinode.study.design.file import Study
+from antinode.study.design.points import points_of
 from antinode.study.sweep.figures import crossings
-from antinode.study.sweep.file import Study
 from antinode.study.sweep.sweep import sweep
 from antinode.study.sweep.tracking import neighbours, track
 from cli_run import refused, run

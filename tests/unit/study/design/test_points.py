@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import antinode as an
-from antinode.study.sweep.design import points_of
-from antinode.study.sweep.file import Study
+from antinode.study.design.file import Study
+from antinode.study.design.points import points_of
 from cli_run import contents, refused, run
 
 

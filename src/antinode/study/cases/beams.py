@@ -1,0 +1,99 @@
+"""The beams of some cases: on arrays where what varies allows it, else one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from antinode.arrays import Array, Integers
+from antinode.beam.beam import Beam
+from antinode.beam.limits import check_limits
+from antinode.errors import AntinodeError
+from antinode.study.design.file import LOAD_OUTPUTS
+from antinode.vehicle.case import Case
+from antinode.vehicle.many_beams import Chains, ManyBeams
+from antinode.vehicle.many_loads import OUT_OF_RANGE, compute_many_loads, is_vectorised
+
+from .reasons import BEYOND_LIMITS, NO_BEAM
+from .values import Cases
+
+
+@dataclass(frozen=True)
+class CaseBeams:
+    """The beams of some cases.
+
+    Attributes
+    ----------
+    reason : array of int, shape (cases,)
+        0, or why a case has no beam.
+    scalars : dict
+        Loads by the names of `LOAD_OUTPUTS`, shape (cases,).
+    exact : bool
+        Whether nothing varies inside the segments of any chain.
+    chains : callable
+        Returns the bending chains of some cases at a refinement, those of equal size together.
+    """
+
+    reason: Integers
+    scalars: Mapping[str, Array]
+    exact: bool
+    chains: Callable[[Integers, int], list[Chains]] = field(repr=False)
+
+
+def beams_of(cases: Cases) -> CaseBeams:
+    """Return the beams of some cases."""
+    reason = np.where(cases.outside(), OUT_OF_RANGE, 0)
+    arrays = all(v.kind == "time" or is_vectorised(v.keys) for v in cases.variables)
+    return _on_arrays(cases, reason) if arrays else _one_by_one(cases, reason)
+
+
+def _on_arrays(cases: Cases, reason: Integers) -> CaseBeams:
+    case = cases.study.case
+    loads = compute_many_loads(case, cases.numbers, len(cases))
+    beams = ManyBeams(case, cases.numbers, loads)
+    reason = np.where(reason == 0, loads.code, reason)
+    with np.errstate(all="ignore"):
+        far = beams.beyond_limits()
+    reason = np.where(far & (reason == 0), BEYOND_LIMITS, reason)
+    return CaseBeams(reason, loads.scalars, beams.exact, beams.chains)
+
+
+def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
+    """Build every case by itself."""
+    beams: dict[int, Beam] = {}
+    scalars = {name: np.full(len(cases), np.nan) for name in LOAD_OUTPUTS}
+    for i in np.flatnonzero(reason == 0).tolist():
+        try:
+            case = cases.case(i)
+            beam = case.beam()
+            check_limits(beam)
+        except AntinodeError:
+            reason[i] = NO_BEAM
+            continue
+        beams[i] = beam
+        for name in LOAD_OUTPUTS:
+            scalars[name][i] = _scalar(case, name)
+    exact = not any(np.any(b.varies("bending")) for b in beams.values())
+    return CaseBeams(reason, scalars, exact, lambda rows, fine: _chains_of(beams, rows, fine))
+
+
+def _chains_of(beams: Mapping[int, Beam], rows: Integers, refinement: int) -> list[Chains]:
+    chains = {i: beams[i].chain("bending", refinement) for i in rows.tolist()}
+    found = []
+    for size in sorted({len(chain.length) for chain in chains.values()}):
+        own = {i: chain for i, chain in chains.items() if len(chain.length) == size}
+        table = [
+            np.stack([getattr(chain, name) for chain in own.values()])
+            for name in ("length", "mass", "stiffness", "axial_force")
+        ]
+        found.append(Chains(np.array(list(own)), *table))
+    return found
+
+
+def _scalar(case: Case, name: str) -> float:
+    loads = case.loads
+    if name == "cavity_length":
+        return loads.cavity.L_c
+    return loads.cavity.D_c if name == "cavity_diameter" else float(getattr(loads, name))

@@ -1,0 +1,160 @@
+"""Bending frequencies of the cases of a chunk, refined until their estimated error is small enough.
+
+The error by what varies inside segments is estimated on every 32nd case, from the change when each
+step is halved; all chains are refined until it is within the tolerance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from antinode.arrays import Array, Integers
+from antinode.modes.batch import BeamBatch, solve_many
+from antinode.riccati.chain import Chain
+from antinode.riccati.roots import CountingError, find_eigenvalues
+from antinode.study.design.file import Study
+from antinode.vehicle.derivatives import Modes
+from antinode.vehicle.many_beams import Chains
+
+from .beams import CaseBeams
+from .reasons import PAST_BUCKLING, failed
+
+_SAMPLE = 32
+_SAFETY = 2.5
+_NEAR_BUCKLING = 1e-7  # share of the highest omega^2 below which the first may be a rigid one
+_FINEST = 32
+
+
+@dataclass(frozen=True)
+class Eigenvalues:
+    """Eigenvalues of one family of some cases; NaN where there are none.
+
+    Attributes
+    ----------
+    omega2, error : array, shape (cases, modes)
+        With a bound on the error [rad^2/s^2].
+    reason : array of int, shape (cases,)
+        0, past buckling, or why there are none.
+    shapes : array, shape (cases, modes, points)
+        At even points, of unit norm; without points where they are not wanted.
+    """
+
+    omega2: Array
+    error: Array
+    reason: Integers
+    shapes: Array
+
+
+def nothing_solved(study: Study, reason: Integers, points: int) -> Eigenvalues:
+    """Return eigenvalues that are all unknown yet."""
+    shape = len(reason), study.solve.modes
+    omega2, error = np.full((2, *shape), np.nan)
+    return Eigenvalues(omega2, error, reason.copy(), np.full((*shape, points), np.nan))
+
+
+def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
+    """Return the bending eigenvalues of some cases, with shapes at so many points."""
+    out = nothing_solved(study, beams.reason, points)
+    rows = np.flatnonzero(beams.reason == 0)
+    if not len(rows):
+        return out
+    weight = _weight(study, beams, rows)
+    refinement, share = 1, np.zeros(study.solve.modes)
+    if not beams.exact:
+        refinement, share = _refine(study, beams, rows, weight)
+    x = np.linspace(0, study.case.vehicle.length, points)
+    for chains in beams.chains(rows, refinement):
+        at = chains.rows
+        omega2, error, out.reason[at] = solve_free(chains, study.solve.modes)
+        out.omega2[at] = omega2
+        out.error[at] = error + np.abs(omega2) * share * weight[at, None]
+        if points:
+            out.shapes[at] = _shapes(chains, omega2, out.reason[at], x)
+    return out
+
+
+def _weight(study: Study, beams: CaseBeams, rows: Integers) -> Array:
+    """Return what the error of a chain goes with: the slope of N, where only N varies."""
+    size = np.abs(beams.scalars["a_X"])
+    largest = np.max(size[rows])
+    stepped = study.case.vehicle.interpolation == "step" and not study.case.vehicle.masses
+    weight = np.maximum(size, 0.05 * largest) if stepped and largest > 0 else np.ones(len(size))
+    return np.nan_to_num(weight, nan=1.0)
+
+
+def _refine(study: Study, beams: CaseBeams, rows: Integers, weight: Array) -> tuple[int, Array]:
+    """Return the refinement, and the estimated relative error of every omega^2, by weight."""
+    sample, modes = rows[:: max(1, min(_SAMPLE, len(rows) // 8))], study.solve.modes
+    refinement, coarse = 1, _omega2(beams.chains(sample, 1), modes)
+    while True:
+        fine = _omega2(beams.chains(sample, 2 * refinement), modes)
+        with np.errstate(all="ignore"):
+            change = np.abs(fine - coarse) / np.maximum(np.abs(fine), 1e-3 * fine[:, -1:])
+            change = np.nan_to_num(change) / weight[sample, None]
+        share = change.max(axis=0) * _SAFETY * 16 / 15
+        share = np.maximum(share, share.max() / 4)
+        error = share.max() * weight[rows].max() / 2
+        if error <= study.solve.tolerance or 2 * refinement > _FINEST:
+            return refinement, share
+        refinement, coarse = 2 * refinement, fine
+
+
+def _omega2(groups: list[Chains], modes: int) -> Array:
+    """Return omega^2 of all chains, in the order of their cases."""
+    rows = np.concatenate([g.rows for g in groups])
+    omega2 = np.concatenate([solve_free(g, modes)[0] for g in groups])
+    return np.asarray(omega2[np.argsort(rows)])
+
+
+def solve_free(chains: Chains, modes: int) -> tuple[Array, Array, Integers]:
+    """Return omega^2, its error and the reason for every chain; by frames where lanes fail."""
+    batch = BeamBatch(chains.length, chains.mass, chains.stiffness, chains.axial_force, modes=modes)
+    result = solve_many(batch)
+    omega2, error, reason = result.omega2, result.error_omega2, result.reason
+    buckled = ~(omega2[:, 0] > _NEAR_BUCKLING * omega2[:, -1])
+    for i in np.flatnonzero(failed(reason) | buckled).tolist():
+        found = _by_frames(_chain(chains, i), modes)
+        if found is not None:
+            omega2[i], error[i] = found
+            reason[i] = PAST_BUCKLING if omega2[i, 0] < 0 else 0
+    return omega2, error, reason
+
+
+def _chain(chains: Chains, i: int) -> Chain:
+    tables = (chains.length, chains.mass, chains.stiffness, chains.axial_force)
+    return Chain(*(table[i if len(table) > 1 else 0] for table in tables))
+
+
+def _by_frames(chain: Chain, modes: int) -> tuple[Array, Array] | None:
+    """Return omega^2 of the elastic modes of a free chain, and its error.
+
+    Translation is the eigenvalue that is zero, wherever it stands: past buckling elastic modes come
+    before it. The lowest one beside it is the rotation.
+    """
+    zeros = 1 if np.any(chain.axial_force) else 2
+    try:
+        found = find_eigenvalues(chain, modes + 2, zeros=zeros)
+    except (CountingError, FloatingPointError, ValueError):
+        return None
+    rest = [e for e in found if e.omega2 != 0.0][2 - zeros :][:modes]
+    if len(rest) < modes:
+        return None
+    omega2 = np.array([e.omega2 for e in rest])
+    return omega2, np.array([e.bracket[1] - e.bracket[0] for e in rest])
+
+
+def _shapes(chains: Chains, omega2: Array, reason: Integers, x: Array) -> Array:
+    """Return the shapes at places, of unit norm; NaN where there are none."""
+    found = np.full((*omega2.shape, len(x)), np.nan)
+    for i in np.flatnonzero(~failed(reason)).tolist():
+        found[i] = unit_shapes(Modes(_chain(chains, i), omega2[i]).displacement(x))
+    return found
+
+
+def unit_shapes(displacement: Array) -> Array:
+    """Return shapes (points, modes) as rows of unit norm, the largest displacement positive."""
+    y = displacement.T
+    largest = np.take_along_axis(y, np.argmax(np.abs(y), axis=1)[:, None], axis=1)
+    return np.asarray(y * np.sign(largest) / np.linalg.norm(y, axis=1)[:, None])

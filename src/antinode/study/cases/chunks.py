@@ -1,0 +1,82 @@
+"""One chunk of a study: from the values of its inputs to the numbers that are kept.
+
+A chunk is computed by itself, from nothing but the study and its number: warm starts do not cross
+its bounds. So every executor gets the same numbers.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.arrays import Array
+from antinode.study.design.file import Study
+from antinode.study.design.points import Points
+from antinode.vehicle.many_loads import OUT_OF_RANGE
+
+from .beams import CaseBeams, beams_of
+from .bending import Eigenvalues, solve_bending
+from .longitudinal import solve_longitudinal
+from .reasons import failed
+from .values import Cases
+
+Arrays = dict[str, npt.NDArray[Any]]
+
+
+def mode_names(study: Study) -> list[str]:
+    """Return the names of the modes, family by family."""
+    return [f"{f} {k}" for f in study.solve.families for k in range(1, study.solve.modes + 1)]
+
+
+def compute_chunk(points: Points, chunk: int) -> Arrays:
+    """Compute a chunk: arrays over its cases, by the names of the variables of the result."""
+    study = points.study
+    cases = Cases(study, points.variables, points.values(chunk))
+    beams = beams_of(cases)
+    size = study.tracking.points if points.tracked else 0
+    found = _every_family(cases, beams, size)
+    out: Arrays = {v.name: cases.values[:, k] for k, v in enumerate(points.variables)}
+    out["reason"] = found.reason.astype(np.int16)
+    loaded = found.reason < OUT_OF_RANGE
+    scalars = {name: np.where(loaded, values, np.nan) for name, values in beams.scalars.items()}
+    every = scalars | _of_modes(found)
+    out |= {name: every[name] for name in study.outputs}
+    if points.tracked:
+        out["shape"] = found.shapes
+    return out
+
+
+def _every_family(cases: Cases, beams: CaseBeams, points: int) -> Eigenvalues:
+    """Return the eigenvalues of all families side by side; NaN in cases that failed."""
+    families: list[Eigenvalues] = []
+    for family in cases.study.solve.families:
+        if family == "bending":
+            families.append(solve_bending(cases.study, beams, points))
+        else:
+            families.append(solve_longitudinal(cases, beams, points))
+    reason = np.max([f.reason for f in families], axis=0)
+    omega2, error, shapes = (
+        np.concatenate([getattr(f, name) for f in families], axis=1)
+        for name in ("omega2", "error", "shapes")
+    )
+    bad = failed(reason)
+    omega2[bad], error[bad] = np.nan, np.nan
+    return Eigenvalues(omega2, error, reason, shapes)
+
+
+def _of_modes(found: Eigenvalues) -> dict[str, Array]:
+    """Return the outputs that have one number a mode."""
+    omega2 = found.omega2
+    hz, error = _hertz(omega2), np.minimum(found.error, np.abs(omega2))
+    return {
+        "omega2": omega2,
+        "frequency_hz": hz,
+        "error_hz": hz - _hertz(omega2 - error),
+        "growth_rate_per_s": np.sqrt(np.where(omega2 < 0, -omega2, np.nan)),
+    }
+
+
+def _hertz(omega2: Array) -> Array:
+    return np.asarray(np.sqrt(np.where(omega2 >= 0, omega2, np.nan)) / (2 * np.pi))

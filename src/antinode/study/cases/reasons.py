@@ -1,0 +1,30 @@
+"""Why a case of a study has no answer, or a special one: codes and what they mean."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.arrays import Integers
+from antinode.modes.batch import REASONS
+from antinode.vehicle.many_loads import CAVITATION, EXTRA_DRAG, FINS, NOT_FINITE, OUT_OF_RANGE
+
+PAST_BUCKLING, BEYOND_LIMITS, NO_BEAM = 6, 15, 16
+WHY: dict[int, str] = {
+    **dict(enumerate(REASONS)),
+    0: "solved",
+    OUT_OF_RANGE: "an input is outside the range that the case allows",
+    CAVITATION: "speed, depth and pressures give no cavitation number between 0 and 1, "
+    "or contradict each other",
+    FINS: "a fin set is off the body, or its tips are inside it",
+    EXTRA_DRAG: "the extra drag acts off the body",
+    NOT_FINITE: "the loads are too large or too small for numbers",
+    BEYOND_LIMITS: "the axial force is out of all proportion to the bending stiffness",
+    NO_BEAM: "the case has no loads or no beam",
+}
+"""What the reason codes mean; past buckling is an answer, all others but 0 are failures."""
+
+
+def failed(reason: Integers) -> npt.NDArray[np.bool_]:
+    """Tell which cases have no answer."""
+    return np.asarray((reason != 0) & (reason != PAST_BUCKLING))

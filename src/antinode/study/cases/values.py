@@ -1,0 +1,103 @@
+"""Some cases of a study: the values of its variables, as arrays by the keys of the case."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.arrays import Array
+from antinode.study.design.file import Study
+from antinode.study.design.variables import Variable
+from antinode.vehicle.case import Case
+from antinode.vehicle.columns import column_values
+from antinode.vehicle.paths import Keys, replaced, value_at
+
+from .allowed import outside_range
+
+Numbers = dict[Keys, Array]
+_STATIONS = ("vehicle", "stations")
+
+
+@dataclass(frozen=True)
+class Cases:
+    """Some cases of a study.
+
+    Attributes
+    ----------
+    study : Study
+    variables : sequence of Variable
+    values : array, shape (cases, variables)
+        In SI.
+    """
+
+    study: Study
+    variables: Sequence[Variable]
+    values: Array
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    @cached_property
+    def numbers(self) -> Numbers:
+        """What varies, by keys: arrays over cases, columns with a second dimension."""
+        given = list(zip(self.variables, self.values.T, strict=True))
+        found = {v.keys: self._number(v, x) for v, x in given if v.kind == "number"}
+        rows = {k: v for k, v in found.items() if k[:2] == _STATIONS}
+        whole = self._columns([(v, x) for v, x in given if v.kind == "column"])
+        whole = self._with_rows(whole, rows)
+        return {**{k: v for k, v in found.items() if k not in rows}, **whole}
+
+    def _number(self, variable: Variable, given: Array) -> Array:
+        start = value_at(self.study.case, variable.keys) if variable.given.factor else None
+        return given if start is None else np.asarray(given * start)
+
+    def _column(self, keys: Keys) -> Array:
+        return column_values(self.study.case.vehicle.stations, keys[2:])
+
+    def _columns(self, given: Sequence[tuple[Variable, Array]]) -> Numbers:
+        """Return the columns times the factors on their control points."""
+        logarithms: Numbers = {}
+        for variable, factors in given:
+            assert variable.weights is not None
+            with np.errstate(all="ignore"):
+                share = np.log(factors)[:, None] * variable.weights
+            logarithms[variable.keys] = logarithms.get(variable.keys, 0.0) + share
+        return {keys: self._column(keys) * np.exp(share) for keys, share in logarithms.items()}
+
+    def _with_rows(self, columns: Numbers, rows: Numbers) -> Numbers:
+        """Gather single rows of columns into the columns."""
+        found = dict(columns)
+        for (*start, row), values in rows.items():
+            keys = tuple(start)
+            own = self._column(keys)
+            whole = found.get(keys, np.broadcast_to(own, (len(self), len(own)))).copy()
+            whole[:, int(row)] = values
+            found[keys] = whole
+        return found
+
+    def case(self, i: int) -> Case:
+        """Return one case with its own numbers, unchecked."""
+        return case_of(self.study.case, self.numbers, i)
+
+    def outside(self) -> npt.NDArray[np.bool_]:
+        """Tell in which cases an input is outside the range that the case allows."""
+        wrong = np.zeros(len(self), dtype=bool)
+        for variable, given in zip(self.variables, self.values.T, strict=True):
+            if variable.kind == "column":
+                wrong |= ~(given > 0)
+            elif variable.kind == "number":
+                values = self.numbers.get(variable.keys, given)
+                wrong |= outside_range(self.study.case, variable.keys, values)
+        return wrong
+
+
+def case_of(case: Case, numbers: Mapping[Keys, Array], i: int) -> Case:
+    """Return a case with the numbers of case `i`, unchecked."""
+    for keys, values in numbers.items():
+        value = values[i]
+        case = replaced(case, keys, float(value) if np.ndim(value) == 0 else np.asarray(value))
+    return case

@@ -1,0 +1,214 @@
+"""Designs: which values the inputs have in case number i, chunk by chunk.
+
+A grid runs through every combination, the last input fastest. Samples are numbers u between 0 and
+1, turned into values by the inverse of each distribution. Any chunk can be made by itself, so that
+memory does not grow with the number of cases.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.arrays import Array
+from antinode.errors import InputError
+from antinode.text import short
+
+from .file import MOST_CASES, Study
+from .variables import Variable, variables_of
+
+_MOST_PERMUTED = 10_000_000
+_MOST_SOBOL = 21_000
+_SAMPLED = ("random", "latin_hypercube", "sobol", "saltelli")
+
+
+@dataclass(frozen=True)
+class Points:
+    """All cases of a study: which values its variables have.
+
+    Attributes
+    ----------
+    study : Study
+    variables : tuple of Variable
+    cases : int
+    shape : tuple of int
+        Of a grid, one length a variable; else (cases,).
+    """
+
+    study: Study
+    variables: tuple[Variable, ...]
+    cases: int
+    shape: tuple[int, ...]
+
+    @property
+    def chunks(self) -> int:
+        """Number of chunks."""
+        return -(-self.cases // self.study.run.chunk)
+
+    def bounds(self, chunk: int) -> tuple[int, int]:
+        """Return the first case of a chunk, and the first of the next one."""
+        size = self.study.run.chunk
+        return chunk * size, min(self.cases, (chunk + 1) * size)
+
+    @property
+    def tracked(self) -> bool:
+        """Whether modes are followed by shape."""
+        wish = self.study.tracking.track
+        ordered = self.study.design.kind not in _SAMPLED
+        return ordered and self.cases <= 20_000 if wish is None else wish
+
+    def values(self, chunk: int) -> Array:
+        """Return the values of a chunk in SI, shape (cases, variables)."""
+        start, stop = self.bounds(chunk)
+        kind = self.study.design.kind
+        if kind in _SAMPLED:
+            u = self._samples(chunk, start, stop)
+            columns = [v.quantile(u[:, k]) for k, v in enumerate(self.variables)]
+        elif kind == "zip":
+            columns = [v.listed[start:stop] for v in self.variables]
+        else:
+            index = np.unravel_index(np.arange(start, stop), self.shape)
+            columns = [v.listed[i] for v, i in zip(self.variables, index, strict=True)]
+        return np.stack(columns, axis=1) if columns else np.zeros((stop - start, 0))
+
+    def _samples(self, chunk: int, start: int, stop: int) -> Array:
+        """Return numbers between 0 and 1, shape (cases, variables)."""
+        design, d = self.study.design, len(self.variables)
+        if design.kind == "sobol":
+            return self._sobol(start, stop, d)
+        if design.kind == "saltelli":
+            return self._saltelli(start, stop)
+        rng = np.random.default_rng([design.seed, 1, chunk])
+        inside = rng.random((stop - start, d))
+        if design.kind == "random":
+            return inside
+        strata = np.stack([p[start:stop] for p in self._permutations], axis=1)
+        return np.asarray((strata + inside) / self.cases)
+
+    def _saltelli(self, start: int, stop: int) -> Array:
+        """Return rows of A, then B, then A with column 1, 2, ... of B."""
+        d = len(self.variables)
+        number = self.cases // (d + 2)
+        parts = []
+        for block in range(start // number, (stop - 1) // number + 1):
+            first, last = max(start - block * number, 0), min(stop - block * number, number)
+            both = self._sobol(first, last, 2 * d)
+            u = both[:, d:] if block == 1 else both[:, :d].copy()
+            if block > 1:
+                u[:, block - 2] = both[:, d + block - 2]
+            parts.append(u)
+        return np.concatenate(parts)
+
+    def _sobol(self, start: int, stop: int, dimensions: int) -> Array:
+        from scipy.stats import qmc
+
+        engine = qmc.Sobol(dimensions, scramble=True, rng=self.study.design.seed)
+        if start:
+            engine.fast_forward(start)
+        import warnings
+
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of a number of points that is no power of two
+            return np.asarray(engine.random(stop - start))
+
+    @cached_property
+    def _permutations(self) -> list[npt.NDArray[np.int64]]:
+        seeds = [[self.study.design.seed, 2, k] for k in range(len(self.variables))]
+        return [np.random.default_rng(seed).permutation(self.cases) for seed in seeds]
+
+
+def points_of(study: Study) -> Points:
+    """Check the inputs and the design of a study.
+
+    Raises
+    ------
+    InputError
+        If an input leads nowhere, a range is empty, lists have unequal lengths, or there are too
+        many cases.
+    """
+    if not study.inputs:
+        raise InputError("inputs is empty; give at least one [[inputs]], or design.table")
+    variables = tuple(v for given in study.inputs for v in variables_of(study.case, given))
+    _check_names(variables)
+    kind = study.design.kind
+    if kind in _SAMPLED:
+        cases, shape = _sample_number(study, variables)
+    elif study.design.number is not None:
+        raise InputError(f"design.number is for samples; a {kind} has as many cases as its values")
+    elif kind == "zip":
+        cases, shape = _zip_number(variables)
+    else:
+        shape = tuple(_length(v) for v in variables)
+        cases = math.prod(shape)
+    if cases > MOST_CASES:
+        raise InputError(
+            f"the design has {cases:.3g} cases; at most {MOST_CASES:.0e} are allowed: "
+            "take fewer values, or a sobol design with fewer samples"
+        )
+    for v in variables:
+        if kind in _SAMPLED:
+            v.quantile(np.array([0.5]))
+        else:
+            v.listed  # noqa: B018
+    return Points(study, variables, cases, shape if kind == "grid" else (cases,))
+
+
+def _length(variable: Variable) -> int:
+    g = variable.given
+    return len(g.values) if g.values is not None else (g.number or len(variable.listed))
+
+
+def _sample_number(study: Study, variables: tuple[Variable, ...]) -> tuple[int, tuple[int, ...]]:
+    kind, number = study.design.kind, study.design.number
+    if number is None:
+        raise InputError(f"design.number is missing; say how many samples a {kind} design has")
+    for v in variables:
+        if v.given.values is not None or v.given.number is not None:
+            raise InputError(
+                f"inputs, {v.name}: values and number are for grid and zip; "
+                f"give {kind} a range or a distribution"
+            )
+        if v.kind == "time":
+            raise InputError(f"inputs, {v.name}: a history needs kind = 'zip'")
+    if kind in ("sobol", "saltelli") and 2 * len(variables) > _MOST_SOBOL:
+        raise InputError(f"{len(variables)} inputs; a {kind} design has at most {_MOST_SOBOL // 2}")
+    if kind == "latin_hypercube" and number > _MOST_PERMUTED:
+        raise InputError(
+            f"design.number is {number}; a latin_hypercube has at most {_MOST_PERMUTED}: "
+            "take kind = 'sobol'"
+        )
+    total = number * (len(variables) + 2) if kind == "saltelli" else number
+    return total, (total,)
+
+
+def _zip_number(variables: tuple[Variable, ...]) -> tuple[int, tuple[int, ...]]:
+    lengths = {v.name: _length(v) for v in variables}
+    if len(set(lengths.values())) > 1:
+        told = ", ".join(f"{name} {n}" for name, n in list(lengths.items())[:6])
+        raise InputError(
+            f"the inputs of a zip must have as many values each; received {told}: "
+            "fill them up, or take kind = 'grid'"
+        )
+    number = next(iter(lengths.values()))
+    return number, (number,)
+
+
+def _check_names(variables: tuple[Variable, ...]) -> None:
+    seen: dict[str, str] = {}
+    for v in variables:
+        if v.name in _RESERVED:
+            raise InputError(f"inputs: the name '{v.name}' is taken by the result; give another")
+        if v.name in seen:
+            raise InputError(f"inputs: two of them are called {short(v.name)}; give one a name")
+        seen[v.name] = v.key
+    keys = [v.key for v in variables if v.weights is None]
+    for key in keys:
+        if keys.count(key) > 1:
+            raise InputError(f"inputs: {key} stands there twice; remove one")
+
+
+_RESERVED = ("case", "mode", "reason", "track", "chunk", "checksum", "frequency_hz", "point")

@@ -1,0 +1,193 @@
+"""What the result of a sweep holds: its arrays with units and meaning, settings, provenance."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode import __version__
+from antinode.study.cases.chunks import mode_names
+from antinode.study.cases.reasons import WHY, failed
+from antinode.study.design.file import LOAD_OUTPUTS, MODE_OUTPUTS, Study
+from antinode.study.design.points import Points
+from antinode.vehicle.case import Case
+
+if TYPE_CHECKING:
+    import xarray
+
+FORMAT = 1
+TIMESTAMPS = ("created", "finished")
+"""Attributes that differ from run to run."""
+TRACKED = ("tracked_mode", "tracked_mac", "tracked_frequency_hz")
+"""Outputs that are known after all cases."""
+
+
+class Output(NamedTuple):
+    """An array of the result.
+
+    Attributes
+    ----------
+    dims : tuple of str
+        "case" first.
+    shape : tuple of int
+    dtype : str
+    attrs : dict
+        Units and meaning.
+    """
+
+    dims: tuple[str, ...]
+    shape: tuple[int, ...]
+    dtype: str
+    attrs: dict[str, Any]
+
+
+class Coordinate(NamedTuple):
+    """A coordinate that is known beforehand."""
+
+    dim: str
+    values: npt.NDArray[Any]
+    attrs: dict[str, Any]
+
+
+def outputs_of(points: Points) -> dict[str, Output]:
+    """Return every variable over cases, with units and meaning."""
+    study, n = points.study, points.cases
+    modes = len(mode_names(study))
+    found = {
+        v.name: Output(("case",), (n,), "float64", {"units": v.unit, "long_name": _long_name(v)})
+        for v in points.variables
+    }
+    found["reason"] = Output(("case",), (n,), "int16", _reason_attrs())
+    for name in study.outputs:
+        each = name in MODE_OUTPUTS
+        unit, text = (MODE_OUTPUTS if each else LOAD_OUTPUTS)[name]
+        attrs = {"units": unit, "long_name": text}
+        dims, shape = (("case", "mode"), (n, modes)) if each else (("case",), (n,))
+        found[name] = Output(dims, shape, "float64", attrs)
+    if points.tracked:
+        found |= _tracked_variables(study, n, modes)
+    return found
+
+
+def _long_name(variable: Any) -> str:
+    if variable.kind == "time":
+        return "time"
+    return (
+        f"factor on {variable.key}"
+        if variable.unit == "1" and (variable.kind == "column" or variable.given.factor)
+        else variable.key
+    )
+
+
+def _reason_attrs() -> dict[str, Any]:
+    return {
+        "long_name": "0 where a case was solved, else why it was not; 6 has an answer",
+        "flag_values": list(WHY),
+        "flag_meanings": list(WHY.values()),
+    }
+
+
+def _tracked_variables(study: Study, n: int, modes: int) -> dict[str, Output]:
+    points = study.tracking.points
+    dims, shape = ("case", "track"), (n, modes)
+    hz = {"units": "Hz", "long_name": "frequency of each tracked mode"}
+    mac = {"units": "1", "long_name": "likeness with the neighbouring case (MAC)"}
+    mode = {"long_name": "index of the mode that a track is; -1 where the case failed"}
+    form = {"units": "1", "long_name": "shape of each mode, of unit norm"}
+    return {
+        "shape": Output(("case", "mode", "point"), (n, modes, points), "float64", form),
+        "tracked_mode": Output(dims, shape, "int16", mode),
+        "tracked_mac": Output(dims, shape, "float64", mac),
+        "tracked_frequency_hz": Output(dims, shape, "float64", hz),
+    }
+
+
+def coordinates_of(points: Points) -> dict[str, Coordinate]:
+    """Return the coordinates that are known beforehand."""
+    if not points.tracked:
+        return {}
+    about = {"units": "m", "long_name": "position from the nose"}
+    return {"point": Coordinate("point", tracking_points(points.study), about)}
+
+
+def tracking_points(study: Study) -> npt.NDArray[np.float64]:
+    """Return where shapes are compared [m]."""
+    return np.linspace(0, study.case.vehicle.length, study.tracking.points)
+
+
+def attributes(points: Points) -> dict[str, Any]:
+    """Return settings and provenance: what says which study, case and version this is."""
+    study = points.study
+    return {
+        "title": study.name or f"Sweep of {study.case.vehicle.name}",
+        "source": f"antinode {__version__}",
+        "store_format": FORMAT,
+        "antinode_version": __version__,
+        "case_hash": case_hash(study.case),
+        "study_hash": study_hash(study),
+        "cases": points.cases,
+        "shape": list(points.shape),
+        "chunk": study.run.chunk,
+        "design": study.design.kind,
+        "seed": study.design.seed,
+        "modes": study.solve.modes,
+        "families": list(study.solve.families),
+        "tolerance": study.solve.tolerance,
+        "mode_names": mode_names(study),
+        "input_names": [v.name for v in points.variables],
+        "settings": json.dumps(_settings(study), sort_keys=True),
+        "created": _now(),
+    }
+
+
+def final_attributes(reason: npt.NDArray[Any]) -> dict[str, Any]:
+    """Return what is known after all cases."""
+    return {"failed": int(np.count_nonzero(failed(reason))), "finished": _now()}
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+def _settings(study: Study) -> dict[str, Any]:
+    """Return the study as plain values, without its case, figure and the values of tables."""
+    kept = study.model_dump(mode="json", exclude={"case", "figure"}, exclude_defaults=True)
+    for given in kept.get("inputs", []):
+        if len(given.get("values") or []) > 100:
+            given["values"] = f"{len(given['values'])} values"
+    return kept
+
+
+def case_hash(case: Case) -> str:
+    """Return what stands for a case: equal for equal numbers."""
+    return _hash(case.model_dump(mode="json"))
+
+
+def study_hash(study: Study) -> str:
+    """Return what stands for a study; its figure and its name do not count."""
+    return _hash(study.model_dump(mode="json", exclude={"case", "figure", "name"}))
+
+
+def _hash(data: Any) -> str:
+    text = json.dumps(data, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def labelled(dataset: xarray.Dataset) -> xarray.Dataset:
+    """Return the Dataset of a store with its inputs and names as coordinates."""
+    names = dataset.attrs["mode_names"]
+    coordinates: dict[str, Any] = {"mode": list(names)}
+    if "track" in dataset.sizes:
+        coordinates["track"] = list(names)
+    inputs = [name for name in dataset.attrs["input_names"] if name in dataset]
+    kept = dataset.drop_vars("checksum", errors="ignore")
+    return kept.assign_coords(coordinates).set_coords([*inputs, *_present(kept, ("point",))])
+
+
+def _present(dataset: xarray.Dataset, names: tuple[str, ...]) -> list[str]:
+    return [name for name in names if name in dataset.variables]
