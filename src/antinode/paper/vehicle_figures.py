@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Drawn = tuple["Figure", str]
-BLUE, RED, GREEN, PINK = PALETTE[0], PALETTE[1], PALETTE[2], PALETTE[3]
+BLUE, RED, GREEN = PALETTE[:3]
 _X = "x from the nose [m]"
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
 
 import numpy as np
 from pydantic import BaseModel
@@ -236,8 +235,3 @@ _KINDS: tuple[tuple[type, str, tuple[str, ...], tuple[str, ...]], ...] = (
         ("rotational", "axial"),
     ),
 )
-
-
-def solve_words(modes: int, tolerance: float) -> dict[str, Any]:
-    """Return what was asked of the solver."""
-    return {"modes asked for": str(modes), "tolerance": number(tolerance)}
