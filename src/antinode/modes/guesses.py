@@ -4,6 +4,9 @@ Forces that belong to one family, ``N(x) = N_0(x) + a_1 V_1(x) + ... + a_q V_q(x
 numbers. The eigenvalues are analytic in them: between the solves at Chebyshev points, polynomials
 guess them to the last digits. Along each number as many points are taken as its coefficients need
 to vanish. Whoever uses a guess counts at both sides of it.
+
+A guess has the same bits in any process: its products are numpy's own sums, for those of a BLAS
+library depend on how many threads it has.
 """
 
 from __future__ import annotations
@@ -46,12 +49,12 @@ def guess_omega2(force: Array, solve: Callable[[Array], Array]) -> Array | None:
     number = len(directions)
     if not 1 <= number <= _NUMBERS or len(force) < _WORTH * POINTS * number:
         return None
-    amounts = (force - middle) @ directions.T
+    amounts = np.einsum("ij,kj->ik", force - middle, directions)
     low, high = np.min(amounts, axis=0), np.max(amounts, axis=0)
     centre, half = (high + low) / 2, np.maximum((high - low) / 2, 1e-300)
 
     def exact_at(places: Array) -> Array:
-        return solve(middle + (centre + half * places) @ directions)
+        return solve(middle + _product(centre + half * places, directions))
 
     exact = _on_axes(number, exact_at)
     if number > 1 and np.all(np.isfinite(exact)):
@@ -78,7 +81,7 @@ def _on_axes(number: int, exact_at: Callable[[Array], Array]) -> Array:
 
 def _points_needed(values: Array) -> int:
     """Return how many points a number needs, from exact values at POINTS of it."""
-    size = np.abs(_transform(POINTS) @ values)
+    size = np.abs(_product(_transform(POINTS), values))
     large = np.flatnonzero(np.any(size > _VANISHES * np.max(size, axis=0), axis=1))
     return min(int(large[-1]) + 2, POINTS)
 
@@ -94,14 +97,33 @@ def _grid(points: list[int]) -> Array:
 
 
 def _family(force: Array) -> tuple[Array, Array]:
-    """Return the mean of the forces, and the directions in which some of them differ from it."""
+    """Return the mean of the forces, and the directions in which some of them differ from it.
+
+    Gram and Schmidt's way, the largest rest first; one direction too many tells of no family.
+    """
     sample = force[np.linspace(0, len(force) - 1, _SAMPLES).astype(int)]
     middle = np.mean(sample, axis=0)
     if not np.all(np.isfinite(sample)):
         return middle, np.empty((0, force.shape[1]))
-    _, size, directions = np.linalg.svd(sample - middle, full_matrices=False)
-    largest = max(float(np.linalg.norm(middle)), float(size[0]))
-    return middle, directions[size > _FOREIGN * largest]
+    rest, directions = sample - middle, np.empty((0, force.shape[1]))
+    size = _norms(rest)
+    least = _FOREIGN * max(float(_norms(middle[None])[0]), float(np.max(size)))
+    while np.max(size) > least and len(directions) <= _NUMBERS:
+        k = np.argmax(size)
+        directions = np.concatenate([directions, rest[k : k + 1] / size[k]])
+        for _ in range(2):  # once more for what rounding has left
+            rest = rest - np.einsum("ij,j->i", rest, directions[-1])[:, None] * directions[-1]
+        size = _norms(rest)
+    return middle, directions
+
+
+def _norms(rows: Array) -> Array:
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", rows, rows)))
+
+
+def _product(a: Array, b: Array) -> Array:
+    """Return the product of two matrices."""
+    return np.asarray(np.einsum("ij,jk->ik", a, b))
 
 
 def _chebyshev(t: Array, points: int) -> Array:
@@ -126,15 +148,17 @@ def _interpolate(exact: Array, t: Array) -> Array:
     coefficients = exact
     for axis in range(t.shape[1]):
         transform = _transform(exact.shape[axis])
-        coefficients = np.moveaxis(np.tensordot(transform, coefficients, (1, axis)), 0, axis)
+        first = np.moveaxis(coefficients, axis, 0)
+        product = _product(transform, first.reshape(len(first), -1)).reshape(-1, *first.shape[1:])
+        coefficients = np.moveaxis(product, 0, axis)
     parts = [_evaluate(coefficients, t[i : i + _TOGETHER]) for i in range(0, len(t), _TOGETHER)]
     return np.concatenate(parts)
 
 
 def _evaluate(coefficients: Array, t: Array) -> Array:
     points = coefficients.shape[:-1]
-    found = _chebyshev(t[:, 0], points[0]) @ coefficients.reshape(points[0], -1)
+    found = _product(_chebyshev(t[:, 0], points[0]), coefficients.reshape(points[0], -1))
     for axis in range(1, len(points)):
         T = _chebyshev(t[:, axis], points[axis])
-        found = (T[:, None] @ found.reshape(len(t), points[axis], -1))[:, 0]
+        found = np.einsum("ij,ijk->ik", T, found.reshape(len(t), points[axis], -1))
     return np.asarray(found)

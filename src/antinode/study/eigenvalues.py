@@ -15,6 +15,7 @@ from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.errors import ComputationError
 from antinode.modes.batch import BeamBatch, solve_many
+from antinode.modes.kernel import kernel
 from antinode.riccati.chain import Chain, Family
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.vehicle.case import Case
@@ -75,6 +76,7 @@ def eigenvalues_of(
     ComputationError
         If its loads or its eigenvalues cannot be computed.
     """
+    kernel()  # all solves take it once it is loaded
     beams = [case.beam() for case in cases]
     modes: list[dict[Family, Modes]] = [{} for _ in cases]
     rows = [k for k, families in enumerate(wanted) if "bending" in families]

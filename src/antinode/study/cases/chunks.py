@@ -1,7 +1,8 @@
 """One chunk of a study: from the values of its inputs to the numbers that are kept.
 
-A chunk is computed by itself, from nothing but the study and its number: warm starts do not cross
-its bounds. So every executor gets the same numbers.
+A chunk is computed by itself, from nothing but the study and its number, and always by the compiled
+kernel: warm starts do not cross its bounds. So every executor gets the same numbers, to the last
+bit, whatever its process did before.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arrays import Array
+from antinode.modes.kernel import kernel
 from antinode.study.design.file import Study
 from antinode.study.design.points import Points
 from antinode.vehicle.many_loads import OUT_OF_RANGE
@@ -32,6 +34,7 @@ def mode_names(study: Study) -> list[str]:
 
 def compute_chunk(points: Points, chunk: int) -> Arrays:
     """Compute a chunk: arrays over its cases, by the names of the variables of the result."""
+    kernel()  # all solves take it once it is loaded
     study = points.study
     cases = Cases(study, points.variables, points.values(chunk))
     beams = beams_of(cases)
