@@ -42,6 +42,7 @@ def main(how, file, out):
         for modes in (2, 9):
             an.solve_modes(study.case, modes)
         an.natural_frequencies(an.load_beam(file.replace("study", "beam")), 5)
+        an.solve_many(an.BeamBatch(np.ones(5), np.ones((3, 5)), np.ones((3, 5))))
         an.sweep(study.model_copy(update={"solve": study.solve.model_copy(update={"modes": 2})}))
     if how == "pool":
         more["workers"] = 2
