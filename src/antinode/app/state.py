@@ -17,6 +17,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from antinode.beam.families import BENDING, FamilyName
 from antinode.beam.file import BeamFile
 from antinode.beam.limits import check_limits
 from antinode.errors import InputError
@@ -41,7 +42,7 @@ class View(Frozen):
 
     units: System = "SI"
     dark: bool = False
-    family: str = "bending"
+    family: FamilyName = BENDING
     component: int = 0
     modes: tuple[int, ...] = (1, 2, 3)
     body: int = 1

@@ -16,7 +16,8 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
-from antinode.modes.result import COMPONENTS, ModalResult, Mode
+from antinode.beam.families import FAMILIES
+from antinode.modes.result import ModalResult, Mode
 
 LINE = 3
 """VTK's number for a cell of two points."""
@@ -85,7 +86,7 @@ def _point_data(result: ModalResult) -> Iterable[str]:
         vector = np.zeros((len(result.x), 3))
         vector[:, 1 if family == "bending" else 0] = mode.shape
         yield _array(f"{name} [m]", vector)
-        for index, (symbol, unit, _) in enumerate(COMPONENTS[family][1:], 1):
+        for index, (symbol, unit, _) in enumerate(FAMILIES[family].quantities[1:], 1):
             yield _array(f"{name}: {symbol} [{unit}]", mode.states[:, index])
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from antinode.arrays import Array
-from antinode.riccati.chain import Family
+from antinode.beam.families import FamilyName
 from antinode.riccati.literal import riccati_characteristic, tmm_characteristic
 from antinode.show.style import GREY, INK, zero_line
 
@@ -169,7 +169,7 @@ class StateFigure:
         With ``{at}`` for the cavitation number and ``{largest}`` for the amplitude.
     """
 
-    family: Family
+    family: FamilyName
     index: int
     factor: float
     label: str

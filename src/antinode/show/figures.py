@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from antinode.beam.beam import Beam
-    from antinode.riccati.chain import Family
+    from antinode.beam.families import FamilyName
     from antinode.vehicle.case import Case
     from antinode.vehicle.vehicle import FinSet, Vehicle
 
@@ -134,7 +134,7 @@ def _titled(figure: Figure, axes: Any, title: str, label: str) -> Figure:
     return figure
 
 
-def _numbered(result: ModalResult, family: Family, most: int) -> list[Mode]:
+def _numbered(result: ModalResult, family: FamilyName, most: int) -> list[Mode]:
     """Return the modes 1, 2, ... of a family, rigid ones left out."""
     return [mode for mode in result.family(family) if mode.number][:most]
 

@@ -13,15 +13,16 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
+from antinode.beam.families import FamilyName
 from antinode.errors import ComputationError
 from antinode.modes.batch import BeamBatch, solve_many
-from antinode.riccati.chain import Chain, Family
+from antinode.riccati.chain import Chain
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import Modes, Sensitivity
 from antinode.vehicle.loads import Loads
 
-Wanted = Mapping[Family, int]
+Wanted = Mapping[FamilyName, int]
 _FINEST = 16
 
 
@@ -41,13 +42,13 @@ class Response:
     case: Case
     loads: Loads
     beam: Beam
-    modes: Mapping[Family, Modes] = field(repr=False)
+    modes: Mapping[FamilyName, Modes] = field(repr=False)
 
-    def sensitivity(self, family: Family) -> Sensitivity:
+    def sensitivity(self, family: FamilyName) -> Sensitivity:
         """Return the derivatives of the eigenvalues of a family."""
         return Sensitivity(self.modes[family], self.beam, self.loads)
 
-    def frequencies_hz(self, family: Family) -> Array:
+    def frequencies_hz(self, family: FamilyName) -> Array:
         """Return the frequencies of modes 1, 2, ... [Hz]; negative for a divergent mode."""
         return hertz(self.modes[family].omega2)
 
@@ -76,7 +77,7 @@ def respond(
         If its loads or its eigenvalues cannot be computed.
     """
     beams = [case.beam() for case in cases]
-    modes: list[dict[Family, Modes]] = [{} for _ in cases]
+    modes: list[dict[FamilyName, Modes]] = [{} for _ in cases]
     rows = [k for k, families in enumerate(wanted) if "bending" in families]
     chains = [beams[k].chain("bending", refinement) for k in rows]
     numbers = [wanted[k]["bending"] for k in rows]

@@ -25,8 +25,9 @@ import numpy.typing as npt
 
 from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
+from antinode.beam.families import FamilyName
 from antinode.modes.kernel import shapes_for
-from antinode.riccati.chain import Chain, Family, largest_wave_number
+from antinode.riccati.chain import Chain, largest_wave_number
 from antinode.riccati.shapes import propagate
 
 from .loads import Loads, PointForce
@@ -58,7 +59,7 @@ class Modes:
     omega2: Array
 
     @property
-    def family(self) -> Family:
+    def family(self) -> FamilyName:
         """Bending or longitudinal."""
         return self.chain.family
 

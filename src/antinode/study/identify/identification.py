@@ -16,8 +16,8 @@ from functools import cached_property
 
 import numpy as np
 
+from antinode.beam.families import FamilyName
 from antinode.errors import InputError
-from antinode.riccati.chain import Family
 from antinode.study.eigenvalues import sufficient_refinement
 from antinode.vehicle.case import Case
 
@@ -54,7 +54,7 @@ class Comparison:
 
     row: int
     label: str
-    family: Family
+    family: FamilyName
     number: int
     paired: int
     observed_hz: float

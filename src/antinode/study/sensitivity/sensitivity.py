@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.families import FamilyName
 from antinode.errors import AntinodeError, ComputationError, InputError
-from antinode.riccati.chain import Family
 from antinode.study.eigenvalues import respond, sufficient_refinement
 from antinode.study.sweep.chunks import failed, mode_names
 from antinode.study.sweep.design import Points, Variable, points_of
@@ -200,7 +200,7 @@ def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]
 
     The derivatives come from the mode shapes, and from the loads by the chain rule.
     """
-    wanted: dict[Family, int] = dict.fromkeys(study.solve.families, study.solve.modes)
+    wanted: dict[FamilyName, int] = dict.fromkeys(study.solve.families, study.solve.modes)
     found: dict[str, tuple[float, Array]] = {}
     try:
         refinement = sufficient_refinement(study.case, wanted, 1e-9)

@@ -19,10 +19,12 @@ import numpy.typing as npt
 from pydantic import ValidationError
 
 from antinode.arrays import Array, Integers
+from antinode.beam.families import FamilyName
 from antinode.beam.limits import check_limits
 from antinode.errors import AntinodeError
 from antinode.modes.batch import REASONS, BeamBatch, solve_many
-from antinode.riccati.chain import Chain, Family
+from antinode.riccati.chain import Chain
+from antinode.riccati.laws import BENDING
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.vehicle.case import Case
 from antinode.vehicle.columns import column_values
@@ -289,7 +291,7 @@ class Work:
                 return refinement, share
             refinement, coarse = 2 * refinement, fine
 
-    def _columns(self, family: Family) -> slice:
+    def _columns(self, family: FamilyName) -> slice:
         n = self.study.solve.modes
         k = self.study.solve.families.index(family)
         return slice(k * n, (k + 1) * n)
@@ -300,9 +302,8 @@ class Work:
         found = np.full((*omega2.shape, len(x)), np.nan)
         for i in np.flatnonzero(~failed(reason)).tolist():
             j = i if len(chains.length) > 1 else 0
-            chain = Chain(
-                chains.length[j], chains.mass[i], chains.stiffness[i], chains.axial_force[i]
-            )
+            columns = BENDING.named(chains.mass[i], chains.stiffness[i], chains.axial_force[i])
+            chain = Chain(BENDING, chains.length[j], columns)
             found[i] = _unit(Modes(chain, omega2[i]).displacement(x))
         return found
 
@@ -380,7 +381,7 @@ def solve_chains(chains: Chains, modes: int) -> tuple[Array, Array, Integers]:
         m, EI, N = (
             getattr(batch, k)[i] for k in ("mass_per_length", "bending_stiffness", "axial_force")
         )
-        found = _by_frames(Chain(batch.length[j], m, EI, N), modes)
+        found = _by_frames(Chain(BENDING, batch.length[j], BENDING.named(m, EI, N)), modes)
         if found is not None:
             omega2[i], error[i] = found
             reason[i] = PAST_BUCKLING if omega2[i, 0] < 0 else 0
