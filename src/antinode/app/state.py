@@ -135,6 +135,11 @@ class State:
         return checked
 
     @cached_property
+    def families(self) -> tuple[FamilyName, ...]:
+        """The families of modes that the file as it was opened has the columns for."""
+        return self.original.beam().families
+
+    @cached_property
     def key(self) -> str:
         """What the numbers depend on, as a text."""
         changes = json.dumps(plain(self.changes), sort_keys=True)

@@ -50,8 +50,8 @@ class Family:
         What its rigid modes do: moving without, and with, a turn where it has both.
     quantities : tuple of Quantity
         The components of its states (equation 56).
-    axis : str
-        Along what a mode moves: "y", "x", or "about x".
+    freedoms : tuple of int
+        Of the displacements, among three translations along x, y, z and three rotations about them.
     """
 
     law: Law
@@ -65,7 +65,7 @@ class Family:
     rotary: bool
     rigid: tuple[str, ...]
     quantities: tuple[Quantity, ...]
-    axis: str
+    freedoms: tuple[int, ...]
 
     @property
     def name(self) -> FamilyName:
@@ -108,7 +108,7 @@ FAMILIES: Mapping[FamilyName, Family] = {
             Quantity("M", "N m", "bending moment EI Y''"),
             Quantity("Q_y", "N", "lateral force M' + N Y'"),
         ),
-        axis="y",
+        freedoms=(1, 5),
     ),
     LONGITUDINAL: Family(
         law=laws.BAR,
@@ -125,7 +125,7 @@ FAMILIES: Mapping[FamilyName, Family] = {
             Quantity("X", "m", "axial displacement"),
             Quantity("Q_x", "N", "compressive force -EA X'"),
         ),
-        axis="x",
+        freedoms=(0,),
     ),
     TORSION: Family(
         law=laws.SHAFT,
@@ -142,7 +142,7 @@ FAMILIES: Mapping[FamilyName, Family] = {
             Quantity("phi", "rad", "rotation about the axis"),
             Quantity("T", "N m", "torque GJ phi'"),
         ),
-        axis="about x",
+        freedoms=(3,),
     ),
 }
 

@@ -69,16 +69,12 @@ def modal_dataset(result: ModalResult) -> xarray.Dataset:
             shapes = np.array([_component(m, family, i, len(result.x)) for m in modes])
             data[symbol] = (("mode", "x"), shapes, {"units": unit, "long_name": text})
     coordinates = {
-        "mode": [m.name + (" (longitudinal)" if _ambiguous(m) else "") for m in modes],
+        "mode": [m.name for m in modes],
         "x": ("x", result.x, {"units": "m", "long_name": "position from the left end (nose)"}),
         "bound": ["low", "high"],
     }
     dataset: xarray.Dataset = xr.Dataset(data, coordinates, attrs=_attributes(result))
     return dataset
-
-
-def _ambiguous(mode: Mode) -> bool:
-    return mode.family == "longitudinal" and mode.number == 0
 
 
 def _component(mode: Mode, family: str, index: int, points: int) -> Any:

@@ -119,8 +119,7 @@ def _modes_table(result: ModalResult, headings: Sequence[str], brief: bool) -> T
 
 
 def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
-    lateral = mode.number or mode.family == "bending"
-    name = mode.name if lateral else "longitudinal rigid"
+    name = mode.name
     if mode.omega2 < 0:
         growth = f"{mode.growth_rate_per_s:.5g} /s"
         error = f"{mode.error_growth_rate_per_s:.1e}"

@@ -13,7 +13,7 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
-from antinode.beam.families import FamilyName
+from antinode.beam.families import BENDING, LONGITUDINAL, FamilyName
 from antinode.errors import ComputationError
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.riccati.chain import Chain
@@ -78,15 +78,15 @@ def respond(
     """
     beams = [case.beam() for case in cases]
     modes: list[dict[FamilyName, Modes]] = [{} for _ in cases]
-    rows = [k for k, families in enumerate(wanted) if "bending" in families]
-    chains = [beams[k].chain("bending", refinement) for k in rows]
-    numbers = [wanted[k]["bending"] for k in rows]
+    rows = [k for k, families in enumerate(wanted) if BENDING in families]
+    chains = [beams[k].chain(BENDING, refinement) for k in rows]
+    numbers = [wanted[k][BENDING] for k in rows]
     for k, chain, omega2 in zip(rows, chains, _bending(chains, numbers), strict=True):
-        modes[k]["bending"] = Modes(chain, omega2)
+        modes[k][BENDING] = Modes(chain, omega2)
     for k, families in enumerate(wanted):
-        if "longitudinal" in families:
-            chain = beams[k].chain("longitudinal", refinement)
-            modes[k]["longitudinal"] = Modes(chain, _solve(chain, families["longitudinal"], 1, 1))
+        if LONGITUDINAL in families:
+            chain = beams[k].chain(LONGITUDINAL, refinement)
+            modes[k][LONGITUDINAL] = Modes(chain, _solve(chain, families[LONGITUDINAL], 1, 1))
     return tuple(map(Response, cases, [case.loads for case in cases], beams, modes))
 
 

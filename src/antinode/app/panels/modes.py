@@ -8,15 +8,16 @@ import numpy as np
 
 from antinode.app.compute import Picture
 from antinode.app.display import shown_unit
+from antinode.app.quick import QUICK_FAMILY
 from antinode.app.state import View
-from antinode.beam.families import BENDING, FAMILIES, FamilyName
+from antinode.beam.families import FAMILIES, FamilyName
 
 from .numbers import pairs, thinned
 
 
 def modes_data(picture: Picture, view: View) -> dict[str, Any]:
     """Return the curves of the modes that the view asks for."""
-    family = view.family if picture.full else BENDING
+    family = view.family if picture.full else QUICK_FAMILY
     x, shapes, labels = _shapes(picture, view, family)
     factor = shown_unit("m", view.units).factor
     names = FAMILIES[family].quantities
@@ -42,7 +43,7 @@ def _shapes(
     picture: Picture, view: View, family: FamilyName
 ) -> tuple[np.ndarray, list[np.ndarray | None], list[str]]:
     """Return x, and of every mode asked for its states and a label; None where there is none."""
-    if family == BENDING:  # what the quick solve has
+    if family == QUICK_FAMILY:
         quick = picture.quick
         count = len(quick.omega2)
         shapes = [quick.states[:, n - 1] if n <= count else None for n in view.modes]

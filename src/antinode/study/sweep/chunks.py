@@ -19,12 +19,11 @@ import numpy.typing as npt
 from pydantic import ValidationError
 
 from antinode.arrays import Array, Integers
-from antinode.beam.families import FamilyName
+from antinode.beam.families import BENDING, FAMILIES, LONGITUDINAL, FamilyName
 from antinode.beam.limits import check_limits
 from antinode.errors import AntinodeError
 from antinode.modes.batch import REASONS, BeamBatch, solve_many
 from antinode.riccati.chain import Chain
-from antinode.riccati.laws import BENDING
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.vehicle.case import Case
 from antinode.vehicle.columns import column_values
@@ -60,6 +59,7 @@ WHY: dict[int, str] = {
 """What the reason codes mean; past buckling is an answer, all others but 0 are failures."""
 _SAMPLE = 32
 _SAFETY = 2.5
+_LAW = FAMILIES[BENDING].law
 _NEAR_BUCKLING = 1e-7  # share of the highest omega^2 below which the first may be a rigid one
 _FINEST = 32
 
@@ -170,7 +170,7 @@ class Work:
         fast = all(v.kind == "time" or is_vectorised(v.keys) for v in self.variables)
         make = self._vectorised(out) if fast else self._one_by_one(out)
         self._bending(out, make)
-        if "longitudinal" in self.study.solve.families:
+        if LONGITUDINAL in self.study.solve.families:
             self._longitudinal(out)
         bad = failed(out.reason)
         out.omega2[bad], out.error[bad] = np.nan, np.nan
@@ -222,7 +222,7 @@ class Work:
                 out.scalars[name][i] = _scalar(case, name)
 
         def make(rows: Integers, refinement: int) -> list[Chains]:
-            chains = {i: beams[i].chain("bending", refinement) for i in rows.tolist()}
+            chains = {i: beams[i].chain(BENDING, refinement) for i in rows.tolist()}
             sizes = {i: len(c.length) for i, c in chains.items()}
             found = []
             for n in sorted(set(sizes.values())):
@@ -234,16 +234,16 @@ class Work:
                 found.append(Chains(np.array(own), *table))
             return found
 
-        self._beams["exact"] = not any(np.any(b.varies("bending")) for b in beams.values())
+        self._beams["exact"] = not any(np.any(b.varies(BENDING)) for b in beams.values())
         return make
 
     # --- solving ---
 
     def _bending(self, out: _Solved, make: Callable[[Integers, int], list[Chains]]) -> None:
         """Solve the chains, refined until the error on a sample is within the tolerance."""
-        if "bending" not in self.study.solve.families:
+        if BENDING not in self.study.solve.families:
             return
-        columns = self._columns("bending")
+        columns = self._columns(BENDING)
         rows = np.flatnonzero(out.reason == 0)
         if not len(rows):
             return
@@ -302,14 +302,14 @@ class Work:
         found = np.full((*omega2.shape, len(x)), np.nan)
         for i in np.flatnonzero(~failed(reason)).tolist():
             j = i if len(chains.length) > 1 else 0
-            columns = BENDING.named(chains.mass[i], chains.stiffness[i], chains.axial_force[i])
-            chain = Chain(BENDING, chains.length[j], columns)
+            columns = _LAW.named(chains.mass[i], chains.stiffness[i], chains.axial_force[i])
+            chain = Chain(_LAW, chains.length[j], columns)
             found[i] = _unit(Modes(chain, omega2[i]).displacement(x))
         return found
 
     def _longitudinal(self, out: _Solved) -> None:
         """Solve the longitudinal modes, once for every different pair of mass and stiffness."""
-        columns, modes = self._columns("longitudinal"), self.study.solve.modes
+        columns, modes = self._columns(LONGITUDINAL), self.study.solve.modes
         known: dict[bytes, tuple[Array, Array, Array]] = {}
         varies = [k for k in self.numbers if k[:2] == ("vehicle", "stations")]
         varies += [k for k in self.numbers if k == ("condition", "burn_fraction")]
@@ -327,10 +327,10 @@ class Work:
 
         beam = case_of(self.study.case, self.numbers, i).beam()
         result = solve_modes(
-            beam, modes, tolerance=self.study.solve.tolerance, families=["longitudinal"]
+            beam, modes, tolerance=self.study.solve.tolerance, families=[LONGITUDINAL]
         )
         found = [m for m in result.modes if m.number][:modes]
-        shapes = result.at(x, "longitudinal")[:, [bool(m.number) for m in result.modes], 0]
+        shapes = result.at(x, LONGITUDINAL)[:, [bool(m.number) for m in result.modes], 0]
         omega2, error = (
             np.array([getattr(m, k) for m in found]) for k in ("omega2", "error_omega2")
         )
@@ -381,7 +381,7 @@ def solve_chains(chains: Chains, modes: int) -> tuple[Array, Array, Integers]:
         m, EI, N = (
             getattr(batch, k)[i] for k in ("mass_per_length", "bending_stiffness", "axial_force")
         )
-        found = _by_frames(Chain(BENDING, batch.length[j], BENDING.named(m, EI, N)), modes)
+        found = _by_frames(Chain(_LAW, batch.length[j], _LAW.named(m, EI, N)), modes)
         if found is not None:
             omega2[i], error[i] = found
             reason[i] = PAST_BUCKLING if omega2[i, 0] < 0 else 0
