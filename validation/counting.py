@@ -32,6 +32,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 
 from chains import LONG, NEAR, STEEP, Case, draw_case, draw_resonance  # noqa: E402
+from law_chains import bending_chain  # noqa: E402
 from reference import certain_count, parity_below  # noqa: E402
 
 SEED = 2026
@@ -54,10 +55,10 @@ class Verdict:
 
 def antinode_count(chain, omega2):
     """Eigenvalues of `chain` below omega2 by antinode's recursion."""
-    from antinode.riccati.chain import Chain, count_below
+    from antinode.riccati.chain import count_below
 
     arrays = map(np.array, (chain.h, chain.m, chain.EI, chain.N))
-    return int(count_below(Chain(*arrays, chain.left, chain.right), np.array([omega2]))[0])
+    return int(count_below(bending_chain(*arrays, chain.left, chain.right), np.array([omega2]))[0])
 
 
 def judge(seed, index, counter=antinode_count):

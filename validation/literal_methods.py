@@ -18,6 +18,7 @@ import numpy as np
 
 from antinode import Beam, solve_modes
 from antinode.riccati.chain import Chain, evaluate, segment_transfers, split_long
+from antinode.riccati.laws import BENDING
 from antinode.riccati.literal import riccati_characteristic, tmm_characteristic
 
 MODES = 40
@@ -32,7 +33,8 @@ FUNCTIONS = {
 def uniform(segments):
     """Free-free beam with EI = m = L = 1."""
     one = np.ones(segments)
-    return Chain(one / segments, one, one, 0 * one)
+    columns = BENDING.named(one, one, 0 * one)
+    return Chain(BENDING, one / segments, columns)
 
 
 def roots(count):

@@ -33,9 +33,9 @@ from modes_tools import chain_matrices  # noqa: E402
 import reference  # noqa: E402
 from antinode import Beam, Ends, load_case, solve_modes  # noqa: E402
 from antinode.modes.buckling import buckling  # noqa: E402
-from antinode.riccati.chain import Chain  # noqa: E402
 from antinode.riccati.roots import find_eigenvalues  # noqa: E402
 from antinode.riccati.segment import bending_transfer, wave_number  # noqa: E402
+from law_chains import bending_chain  # noqa: E402
 
 ENDS = uniform.ENDS
 
@@ -98,7 +98,7 @@ def stepped_beams(segments, decades):
         h, m, EI, N, left, right = stepped.stepped(seed, segments, decades)
         exact = reference.BeamChain(tuple(h), tuple(EI), tuple(m), tuple(N), left, right)
         zeros = int({left, right} <= {"free", "sliding"})
-        for value in find_eigenvalues(Chain(h, m, EI, N, left, right), 6, zeros=zeros):
+        for value in find_eigenvalues(bending_chain(h, m, EI, N, left, right), 6, zeros=zeros):
             if value.omega2 != 0.0:
                 root = reference.chain_root(exact, *sorted(value.bracket, key=abs))
                 worst = max(worst, frequency_error(value.omega2, root))

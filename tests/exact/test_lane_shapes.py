@@ -5,11 +5,11 @@ import pytest
 
 from antinode.modes.kernel import kernel
 from antinode.riccati import shapes
-from antinode.riccati.chain import Chain
 from antinode.riccati.lanes import calls as compiled
 from antinode.riccati.lanes import shapes as lane_shapes
 from antinode.riccati.points import Point
 from antinode.riccati.roots import find_eigenvalues
+from law_chains import bending_chain
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 
@@ -25,7 +25,7 @@ def chain_of(rng, left, right, points=True):
     if points:
         inner = rng.choice(np.arange(1, n), size=min(2, n - 1), replace=False)
         what = tuple(point(rng, node) for node in sorted({0, *map(int, inner), n}))
-    return Chain(h, m, EI, N, left, right, points=what)
+    return bending_chain(h, m, EI, N, left, right, points=what)
 
 
 def point(rng, node):
@@ -80,7 +80,7 @@ def test_a_mode_at_one_end_of_a_long_chain():
     """Stiff but for the right end, 4,000 segments: what decays keeps its digits."""
     n = 4000
     EI = np.where(np.arange(n) < 3800, 1e4, 1.0)
-    chain = Chain(np.full(n, 1 / n), np.ones(n), EI, np.zeros(n))
+    chain = bending_chain(np.full(n, 1 / n), np.ones(n), EI, np.zeros(n))
     omega2 = np.array([v.omega2 for v in find_eigenvalues(chain, 9, zeros=2)[2:]])
     one = np.ones(len(omega2), np.int64)
     states = compiled.mode_states(chain, omega2, one)
@@ -94,7 +94,7 @@ def test_no_layout_of_arrays_is_compiled_again():
     kernel()
     numbers = [len(f.signatures) for f in (lane_shapes.squares, lane_shapes.scaled_chain)]
     h, m, EI, N = np.broadcast_to(np.array([0.1, 1.0, 2.0, 0.3])[:, None], (4, 10))
-    chain = Chain(h, m, EI, np.repeat(N, 2)[::2])
+    chain = bending_chain(h, m, EI, np.repeat(N, 2)[::2])
     omega2 = np.array([v.omega2 for v in find_eigenvalues(chain, 14, zeros=1)[2:]])
     states = compiled.mode_states(chain, omega2, np.ones(len(omega2), np.int64))
     states.flags.writeable = False
@@ -106,7 +106,7 @@ def test_no_layout_of_arrays_is_compiled_again():
 def test_supports_and_clusters_are_left_to_the_readable_form():
     n = 20
     h, one = np.full(n, 0.05), np.ones(n)
-    chain = Chain(h, one, one, 0 * one, points=(Point(10, holds=(0,)),))
+    chain = bending_chain(h, one, one, 0 * one, points=(Point(10, holds=(0,)),))
     omega2 = np.array([v.omega2 for v in find_eigenvalues(chain, 4, zeros=1)[1:]])
     single = np.ones(len(omega2), np.int64)
     same_up_to_sign(

@@ -7,12 +7,13 @@ from antinode.beam.beam import Beam
 from antinode.beam.representation import LIMITS
 from antinode.riccati import chain as readable
 from antinode.riccati import roots
-from antinode.riccati.chain import Chain, omega2_scale
+from antinode.riccati.chain import omega2_scale
 from antinode.riccati.lanes import calls as compiled
 from antinode.riccati.lanes import kernel as lanes
 from antinode.riccati.points import Point
 from antinode.riccati.segment import fundamental
 from chains import draw_case, draw_resonance
+from law_chains import bar_chain, bending_chain
 from reference import certain_count
 
 ENDS = tuple(lanes.ENDS)
@@ -30,7 +31,7 @@ def random_chain(rng, points):
     at = rng.choice(np.arange(n + 1), size=min(n, 3), replace=False) if points else []
     total = float(np.sum(m * h)), float(np.sum(h)), float(np.median(EI))
     what = tuple(random_point(rng, int(node), 0 < node < n, *total) for node in sorted(at))
-    return Chain(h, m, EI, N, left, right, points=what)
+    return bending_chain(h, m, EI, N, left, right, points=what)
 
 
 def random_point(rng, node, inner, M, L, EI):
@@ -65,7 +66,7 @@ def random_bar(rng, ends, points):
         )
         for node in at
     )
-    return Chain(*(vars(chain)[k] for k in NUMBERS), *ends, "longitudinal", what)
+    return bar_chain(chain.length, chain.mass, chain.stiffness, *ends, what)
 
 
 NUMBERS = ("length", "mass", "stiffness", "axial_force")
@@ -115,7 +116,7 @@ def test_counts_and_signs_agree_with_the_readable_form(seed, points):
 def as_chain(case):
     given = case.chain
     h, EI, m, N = (np.array(column) for column in (given.h, given.EI, given.m, given.N))
-    return Chain(h, m, EI, N, given.left, given.right)
+    return bending_chain(h, m, EI, N, given.left, given.right)
 
 
 @pytest.mark.parametrize("index", range(60))
@@ -151,16 +152,16 @@ def test_the_series_are_products_of_the_readable_ones():
 def test_a_hopeless_omega2_is_refused():
     one = np.ones(3)
     with pytest.raises(FloatingPointError, match="out of reach"):
-        compiled.evaluate(Chain(one, one, one * 1e-9, one), [1e30])
+        compiled.evaluate(bending_chain(one, one, one * 1e-9, one), [1e30])
 
 
 def test_bars_and_held_ends_go_the_readable_way():
     one = np.ones(3)
-    bar = Chain(one, one, one, 0 * one, family="longitudinal")
+    bar = bar_chain(one, one, one)
     assert (
         compiled.evaluate(bar, [2.0]).below.tolist() == readable.evaluate(bar, [2.0]).below.tolist()
     )
-    held = Chain(one, one, one, 0 * one, points=(Point(0, holds=(0,)),))
+    held = bending_chain(one, one, one, 0 * one, points=(Point(0, holds=(0,)),))
     expected = readable.evaluate(held, [2.0, 50.0]).below.tolist()
     assert compiled.evaluate(held, [2.0, 50.0]).below.tolist() == expected
 

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from antinode.riccati.segment import bending_transfer, longitudinal_transfer, wave_number
+from antinode.riccati.segment import bending_transfer, wave_number, wave_transfer
 
 
 def exponential(A, h):
@@ -28,7 +28,7 @@ def test_bending(N, inertia, phase):
 def test_longitudinal(inertia):
     EA, h = 30.0, 0.9
     A = np.array([[0, -1 / EA], [inertia, 0]])
-    U = longitudinal_transfer(*map(np.array, (h, EA, inertia)))
+    U = wave_transfer(*map(np.array, (h, EA, inertia)), -1.0)
     np.testing.assert_allclose(U, exponential(A, h), rtol=1e-13, atol=1e-300)
 
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import reference
-from antinode.riccati.chain import Chain
 from antinode.riccati.literal import riccati_characteristic, tmm_characteristic
 from antinode.riccati.roots import find_eigenvalues
+from law_chains import bending_chain
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 
@@ -25,7 +25,7 @@ def stepped(seed, segments, decades):
 @pytest.mark.parametrize(("segments", "decades"), [(3, 1), (7, 3), (12, 6)])
 def test_against_forty_digits(seed, segments, decades):
     h, m, EI, N, left, right = stepped(seed, segments, decades)
-    chain = Chain(h, m, EI, N, left, right)
+    chain = bending_chain(h, m, EI, N, left, right)
     exact = reference.BeamChain(tuple(h), tuple(EI), tuple(m), tuple(N), left, right)
     zeros = int({left, right} <= {"free", "sliding"})
     for value in find_eigenvalues(chain, 6, zeros=zeros):
@@ -38,7 +38,7 @@ def test_against_forty_digits(seed, segments, decades):
 
 def test_mode_list_of_a_long_jumpy_chain_is_complete():
     h, m, EI, N, *_ = stepped(5, 200, 6)
-    chain = Chain(h, m, EI, N, "clamped", "free")
+    chain = bending_chain(h, m, EI, N, "clamped", "free")
     found = find_eigenvalues(chain, 10)
     assert [value.index for value in found] == list(range(1, 11))
     assert [value.counts for value in found] == [(k, k + 1) for k in range(10)]
@@ -48,7 +48,7 @@ def test_mode_list_of_a_long_jumpy_chain_is_complete():
 @pytest.mark.parametrize("right", ENDS)
 def test_the_papers_characteristic_functions_change_sign_at_the_same_roots(left, right):
     h, m, EI, N, *_ = stepped(3, 6, 1)
-    chain = Chain(h, m, EI, N, left, right)
+    chain = bending_chain(h, m, EI, N, left, right)
     zeros = int({left, right} <= {"free", "sliding"})
     for value in find_eigenvalues(chain, 4, zeros=zeros):
         if value.omega2 == 0.0:

@@ -7,8 +7,8 @@ from validation.tolerances import faults, judge, ratios
 import antinode as an
 import hp_beam
 from antinode.beam.ends import Ends
-from antinode.riccati.chain import Chain
 from antinode.riccati.roots import find_eigenvalues
+from law_chains import bending_chain
 from tables import draw_beam
 
 SEED, CASES = 2027, 10
@@ -63,11 +63,11 @@ def _midpoint_chain(beam, steps):
     """The same beam as uniform segments with the values at their middles."""
     n = len(beam.x) - 1
     k, t = np.repeat(np.arange(n), steps), np.tile((np.arange(steps) + 0.5) / steps, n)
-    return Chain(
+    return bending_chain(
         length=np.diff(beam.x)[k] / steps,
         mass=beam.at(beam.mass_per_length, k, t),
         stiffness=beam.at(beam.bending_stiffness, k, t),
-        axial_force=beam.axial_force_at(k, t),
+        force=beam.axial_force_at(k, t),
         left=beam.ends.left,
         right=beam.ends.right,
     )

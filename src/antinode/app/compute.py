@@ -22,7 +22,7 @@ from antinode.riccati.chain import evaluate
 from antinode.vehicle.case import Case
 
 from .inputs import Problem
-from .quick import Quick, quick_modes
+from .quick import QUICK_FAMILY, Quick, quick_modes
 from .state import State
 
 Result = TypeVar("Result")
@@ -56,7 +56,7 @@ class Picture:
         top = 1.12 * np.sqrt(max(float(self.quick.omega2[-1]), 1e-12))
         omega = np.linspace(0.0, top, _SAMPLES)[1:]
         with np.errstate(all="ignore"):
-            values = evaluate(self.beam.chain("bending"), omega**2).characteristic
+            values = evaluate(self.beam.chain(QUICK_FAMILY), omega**2).characteristic
         return omega / (2 * np.pi), values
 
     @property
@@ -116,7 +116,7 @@ def full_picture(state: State) -> Picture:
 
 def _exact(quick: Quick, result: ModalResult) -> Quick:
     """Put the certified omega^2 in place of the quick ones; the shapes are the same to the eye."""
-    found = [m for m in result.family("bending") if m.number][: len(quick.omega2)]
+    found = [m for m in result.family(QUICK_FAMILY) if m.number][: len(quick.omega2)]
     omega2 = np.array([m.omega2 for m in found])
     return quick._replace(omega2=omega2, error=np.array([m.error_omega2 for m in found]))
 

@@ -13,6 +13,7 @@ from typing import Any
 from nicegui import events, ui
 from nicegui.client import Client
 
+from antinode.beam.families import FAMILIES, FamilyName
 from antinode.errors import AntinodeError, InputError
 from antinode.examples import EXAMPLES
 
@@ -26,10 +27,13 @@ from .source import MOST_BYTES, read_dropped, read_example
 from .state import State
 from .stations import StationsDialog
 
-_COMPONENTS = {
-    "bending": {0: "Y", 1: "θ", 2: "M", 3: "Q"},
-    "longitudinal": {0: "X", 1: "Q"},
-}
+_LETTERS = {"theta": "θ", "phi": "φ", "Q_x": "Q", "Q_y": "Q"}
+
+
+def _components(family: FamilyName) -> dict[int, str]:
+    """Return the quantities of a family by their place, as the page writes them."""
+    symbols = [quantity.symbol for quantity in FAMILIES[family].quantities]
+    return {k: _LETTERS.get(symbol, symbol) for k, symbol in enumerate(symbols)}
 
 
 class Page:
@@ -183,6 +187,9 @@ class Page:
         self._equipment_message.visible = False
 
     def _build_pictures(self, vehicle: bool) -> None:
+        families = self.session.state.families
+        if self.session.state.view.family not in families:  # that of another file
+            self.session.look(family=families[0], component=0)
         view = self.session.state.view
         if vehicle:
             title = "Vehicle in its cavity, to scale, with the forces on it"
@@ -190,9 +197,9 @@ class Page:
                 pass
         with _card("frequencies", "Frequencies"):
             ui.toggle(
-                {"bending": "Bending", "longitudinal": "Longitudinal"},
+                {name: name.capitalize() for name in families},
                 value=view.family,
-                on_change=lambda e: self._family(str(e.value)),
+                on_change=lambda e: self._family(e.value),
             ).props(_SMALL).mark("family")
             self._pin = ui.button("Pin", color=None, on_click=self.session.pin).props(
                 'flat dense no-caps size=sm aria-label="Pin the frequencies as baseline"'
@@ -201,7 +208,7 @@ class Page:
             self._mode_buttons()
             self._component = (
                 ui.select(
-                    _COMPONENTS[view.family],
+                    _components(view.family),
                     value=view.component,
                     on_change=lambda e: self.session.look(component=e.value or 0),
                 )
@@ -265,8 +272,8 @@ class Page:
     def _ready(self) -> None:
         self.session.again()
 
-    def _family(self, family: str) -> None:
-        self._component.set_options(_COMPONENTS[family], value=0)
+    def _family(self, family: FamilyName) -> None:
+        self._component.set_options(_components(family), value=0)
         self.session.look(family=family, component=0)
 
     def _toggler(self, number: int) -> Callable[[], None]:

@@ -13,11 +13,14 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.modes.frequencies import natural_frequencies
 from antinode.modes.kernel import shapes_for
 from antinode.modes.solve import solve_modes
 
+QUICK_FAMILY = BENDING
+"""The only family that is solved at once; the others come with the full solve."""
 TOLERANCE = 1e-4
 _POINTS = 121
 _REFINEMENT = 2  # of the chain whose shapes are shown
@@ -80,7 +83,7 @@ def quick_modes(beam: Beam, modes: int) -> Quick:
     found = natural_frequencies(beam, modes, tolerance=TOLERANCE)
     if np.any(np.diff(found.omega2) <= _PARTED * np.abs(found.omega2[1:])):
         return _full_modes(beam, modes)
-    chain = beam.chain("bending", _REFINEMENT).cut_at(np.linspace(0.0, beam.length, _POINTS))
+    chain = beam.chain(QUICK_FAMILY, _REFINEMENT).cut_at(np.linspace(0.0, beam.length, _POINTS))
     with np.errstate(all="ignore"):
         solver = shapes_for(len(chain.length), modes)
         states = solver.mode_states(chain, found.omega2, np.ones(modes, dtype=np.int64))
@@ -88,7 +91,7 @@ def quick_modes(beam: Beam, modes: int) -> Quick:
 
 
 def _full_modes(beam: Beam, modes: int) -> Quick:
-    result = solve_modes(beam, modes, tolerance=TOLERANCE, families=["bending"])
+    result = solve_modes(beam, modes, tolerance=TOLERANCE, families=[QUICK_FAMILY])
     found = [mode for mode in result.modes if mode.number][:modes]
     states = np.stack([mode.states for mode in found], axis=1)
     error = np.array([mode.error_omega2 for mode in found])

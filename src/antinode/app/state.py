@@ -17,6 +17,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from antinode.beam.families import BENDING, FamilyName
 from antinode.beam.file import BeamFile
 from antinode.beam.limits import check_limits
 from antinode.errors import InputError
@@ -41,7 +42,7 @@ class View(Frozen):
 
     units: System = "SI"
     dark: bool = False
-    family: str = "bending"
+    family: FamilyName = BENDING
     component: int = 0
     modes: tuple[int, ...] = (1, 2, 3)
     body: int = 1
@@ -132,6 +133,11 @@ class State:
         with naming(where):
             check_limits(checked.beam())
         return checked
+
+    @cached_property
+    def families(self) -> tuple[FamilyName, ...]:
+        """The families of modes that the file as it was opened has the columns for."""
+        return self.original.beam().families
 
     @cached_property
     def key(self) -> str:

@@ -12,8 +12,9 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.errors import InputError
-from antinode.riccati.chain import Family
 from antinode.riccati.points import Point
+
+from .families import FAMILIES, Family, FamilyName
 
 APART = 1e-8
 """Least distance of two supports over the length of the beam; nearer ones hold nothing between."""
@@ -30,15 +31,18 @@ class PointMass:
     mass : float
         [kg], positive.
     rotary_inertia : float
-        About its own centre [kg m^2].
+        About its own centre, across the beam [kg m^2].
     offset : float
         Of its centre along +x from the station [m].
+    polar_inertia : float
+        About the axis of the beam [kg m^2].
     """
 
     x: float
     mass: float
     rotary_inertia: float = 0.0
     offset: float = 0.0
+    polar_inertia: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -51,14 +55,15 @@ class Spring:
         Station [m].
     translational, axial : float
         [N/m], zero or positive; `math.inf` holds Y, or X, at zero.
-    rotational : float
-        [N m/rad]; `math.inf` holds the slope at zero.
+    rotational, torsional : float
+        [N m/rad]; `math.inf` holds the slope, or the rotation about the axis, at zero.
     """
 
     x: float
     translational: float = 0.0
     rotational: float = 0.0
     axial: float = 0.0
+    torsional: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -73,11 +78,14 @@ class Joint:
         Compliance [rad/(N m)]: slope on the right less slope on the left, over the moment.
     axial : float
         Compliance [m/N].
+    torsional : float
+        Compliance [rad/(N m)]: rotation on the right less that on the left, over the torque.
     """
 
     x: float
     rotational: float = 0.0
     axial: float = 0.0
+    torsional: float = 0.0
 
 
 Attachment = PointMass | Spring | Joint
@@ -118,15 +126,20 @@ def check_supports_apart(places: Iterable[float], x: Array) -> None:
 
 def name_of(item: Attachment) -> str:
     """Return what an attachment is: a point mass, a spring, a support or a joint."""
-    if isinstance(item, Spring) and math.inf in (item.translational, item.rotational, item.axial):
+    if isinstance(item, Spring) and math.inf in (getattr(item, name) for name in _UNITS[Spring]):
         return "support"
     return _NAMES[type(item)]
 
 
 _UNITS: dict[type, dict[str, str]] = {
-    PointMass: {"mass": "kg", "rotary_inertia": "kg_m2", "offset": "m"},
-    Spring: {"translational": "N_per_m", "rotational": "N_m_per_rad", "axial": "N_per_m"},
-    Joint: {"rotational": "rad_per_N_m", "axial": "m_per_N"},
+    PointMass: {"mass": "kg", "rotary_inertia": "kg_m2", "offset": "m", "polar_inertia": "kg_m2"},
+    Spring: {
+        "translational": "N_per_m",
+        "rotational": "N_m_per_rad",
+        "axial": "N_per_m",
+        "torsional": "N_m_per_rad",
+    },
+    Joint: {"rotational": "rad_per_N_m", "axial": "m_per_N", "torsional": "rad_per_N_m"},
 }
 
 
@@ -150,7 +163,7 @@ _NAMES = {PointMass: "point mass", Spring: "spring", Joint: "joint"}
 
 
 def gather(
-    attachments: Sequence[Attachment], x: Array, family: Family, acceleration: float
+    attachments: Sequence[Attachment], x: Array, family: FamilyName, acceleration: float
 ) -> dict[int, Point]:
     """Add up what sits at each breakpoint, as the solver's points.
 
@@ -160,7 +173,8 @@ def gather(
         At breakpoints.
     x : array
         Breakpoints [m].
-    family : {"bending", "longitudinal"}
+    family : str
+        A name of `FAMILIES`.
     acceleration : float
         By which a mass m adds m a to N [m/s^2], through its centre; 0 leaves that moment out.
 
@@ -172,35 +186,35 @@ def gather(
     at: dict[int, list[Attachment]] = {}
     for item in attachments:
         at.setdefault(int(np.argmin(np.abs(x - item.x))), []).append(item)
-    points = {k: _point(k, at[k], family, acceleration) for k in sorted(at)}
+    points = {k: _point(k, at[k], FAMILIES[family], acceleration) for k in sorted(at)}
     return {k: p for k, p in points.items() if p.loads or p.holds or p.compliance}
 
 
 def _point(k: int, items: list[Attachment], family: Family, acceleration: float) -> Point:
     springs = [item for item in items if isinstance(item, Spring)]
     joints = [item for item in items if isinstance(item, Joint)]
-    masses = [item for item in items if isinstance(item, PointMass)]
-    mass = sum(m.mass for m in masses)
-    if family == "longitudinal":
-        k_a = sum(s.axial for s in springs)
-        return Point(
-            k,
-            mass=mass,
-            spring=0.0 if math.isinf(k_a) else k_a,
-            holds=(0,) if math.isinf(k_a) else (),
-            compliance=sum(j.axial for j in joints),
-        )
-    k_t, k_r = (sum(getattr(s, n) for s in springs) for n in ("translational", "rotational"))
-    offset = sum(m.mass * m.offset for m in masses) / mass if mass else 0.0
-    inertia = sum(m.rotary_inertia + m.mass * m.offset**2 for m in masses) - mass * offset**2
+    stiff = [sum(getattr(s, name) for s in springs) for name in family.springs]
+    finite = [0.0 if math.isinf(stiffness) else stiffness for stiffness in stiff]
     return Point(
         k,
-        mass=mass,
-        offset=offset,
-        inertia=max(inertia, 0.0),
-        spring=0.0 if math.isinf(k_t) else k_t,
-        rotational_spring=0.0 if math.isinf(k_r) else k_r,
-        holds=tuple(i for i, stiffness in enumerate((k_t, k_r)) if math.isinf(stiffness)),
-        compliance=sum(j.rotational for j in joints),
-        own_load=acceleration * mass,
+        **_mass([item for item in items if isinstance(item, PointMass)], family, acceleration),
+        spring=finite[0],
+        rotational_spring=finite[1] if family.rotary else 0.0,
+        holds=tuple(i for i, stiffness in enumerate(stiff) if math.isinf(stiffness)),
+        compliance=sum(getattr(j, family.joint) for j in joints),
     )
+
+
+def _mass(masses: list[PointMass], family: Family, acceleration: float) -> dict[str, float]:
+    """Return the masses of a node put together: about their common centre where they turn."""
+    mass = sum(getattr(m, family.inertia) for m in masses)
+    if not family.rotary:
+        return {"mass": mass}
+    offset = sum(m.mass * m.offset for m in masses) / mass if mass else 0.0
+    inertia = sum(m.rotary_inertia + m.mass * (m.offset - offset) ** 2 for m in masses)
+    return {
+        "mass": mass,
+        "offset": offset,
+        "inertia": inertia,
+        "own_load": acceleration * mass,
+    }

@@ -17,6 +17,7 @@ from antinode.errors import InputError
 
 from .attachments import Spring
 from .beam import Beam
+from .families import LONGITUDINAL
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _POINTS, _WEIGHTS = (_POINTS + 1) / 2, _WEIGHTS / 2
@@ -94,7 +95,7 @@ def apply_loads(beam: Beam, loads: AxialLoads) -> Beam:
 def _axial_supports(beam: Beam) -> Array:
     """Return the axial stiffness to ground at every breakpoint [N/m], infinite at fixed ends."""
     stiffness = np.zeros(len(beam.x))
-    left, right = beam.ends.of("longitudinal")
+    left, right = beam.ends.of(LONGITUDINAL)
     stiffness[0] += np.inf if left == "fixed" else 0.0
     stiffness[-1] += np.inf if right == "fixed" else 0.0
     for item in beam.attachments:

@@ -21,7 +21,7 @@ import numpy.typing as npt
 
 from antinode.arrays import Array, Integers, Interpolation
 from antinode.errors import InputError
-from antinode.riccati.chain import Chain, Family
+from antinode.riccati.chain import Chain
 from antinode.riccati.points import Point
 
 from .attachments import (
@@ -32,7 +32,8 @@ from .attachments import (
     gather,
 )
 from .checks import TABLES, check, given
-from .ends import FREE, HOLDS, Ends, held_end
+from .ends import FREE, Ends
+from .families import FAMILIES, FamilyName, tells
 from .representation import FAR, GAUSS, NEAR, coarsest_steps, copies
 
 
@@ -54,11 +55,14 @@ class Beam:
         a [m/s^2] adds ``a * (mass left of x)`` to N: the inertia of a body that accelerates
         towards -x, or weight that acts towards +x.
     interpolation : {"step", "linear", "log"}
-        How m, EI, EA vary between the two values of an interval ("step": they are equal).
+        How m, EI, EA, GJ and rho I_p vary between the two values of an interval ("step": they are
+        equal).
     ends : Ends
     radius_of_gyration : array, shape (n, 2), optional
         Of the cross-section [m], for the estimate of shear and rotary inertia only; by default
         sqrt(EI/EA).
+    torsional_stiffness, polar_inertia_per_length : array, shape (n, 2), optional
+        GJ [N m^2] and rho I_p [kg m], both or neither; without them there are no torsion modes.
     attachments : tuple of PointMass, Spring and Joint
         At breakpoints; `with_attachments` makes the breakpoints.
     offset_weight : bool
@@ -82,6 +86,8 @@ class Beam:
     interpolation: Interpolation = "step"
     ends: Ends = FREE
     radius_of_gyration: Array | None = None
+    torsional_stiffness: Array | None = None
+    polar_inertia_per_length: Array | None = None
     attachments: tuple[Attachment, ...] = ()
     offset_weight: bool = True
     name: str = "beam"
@@ -107,6 +113,8 @@ class Beam:
         interpolation: Interpolation = "step",
         ends: Ends | None = None,
         radius_of_gyration: npt.ArrayLike | None = None,
+        torsional_stiffness: npt.ArrayLike | None = None,
+        polar_inertia_per_length: npt.ArrayLike | None = None,
         name: str = "beam",
     ) -> Beam:
         """Build a beam from values at stations.
@@ -118,6 +126,8 @@ class Beam:
         mass_per_length, bending_stiffness, axial_stiffness, axial_force, radius_of_gyration
             Values at the stations, shape (n + 1,) [kg/m, N m^2, N, N, m]. With "step" row k holds
             from x_k to x_k+1 and the last row only closes the table (shape (n,) is accepted too).
+        torsional_stiffness, polar_inertia_per_length : array_like, shape (n + 1,), optional
+            [N m^2, kg m]; both or neither.
         interpolation : {"step", "linear", "log"}
         ends : Ends
         name : str
@@ -138,27 +148,21 @@ class Beam:
             table.flags.writeable = False
             return table
 
-        m, EI, EA, N, r = (
-            between(v)
-            for v in (
-                mass_per_length,
-                bending_stiffness,
-                axial_stiffness,
-                axial_force,
-                radius_of_gyration,
-            )
-        )
+        m, EI = between(mass_per_length), between(bending_stiffness)
         assert m is not None
         assert EI is not None
+        N = between(axial_force)
         return cls(
             stations,
             m,
             EI,
-            EA,
+            between(axial_stiffness),
             N if N is not None else np.zeros(0),
             interpolation=interpolation,
             ends=ends or Ends(),
-            radius_of_gyration=r,
+            radius_of_gyration=between(radius_of_gyration),
+            torsional_stiffness=between(torsional_stiffness),
+            polar_inertia_per_length=between(polar_inertia_per_length),
             name=name,
         )
 
@@ -270,8 +274,6 @@ class Beam:
             name: None if (v := getattr(self, name)) is None else v[::-1, ::-1].copy()
             for name in TABLES
         }
-        e = self.ends
-        ends = Ends(e.right, e.left, e.right_axial, e.left_axial)
         total = self.x[-1] + self.x[0]
         items: list[Attachment] = []
         for item in self.attachments:
@@ -280,27 +282,34 @@ class Beam:
                 turned = replace(turned, offset=-turned.offset)
             items.append(turned)
         return replace(
-            self, x=total - self.x[::-1], ends=ends, attachments=tuple(items[::-1]), **flip
+            self,
+            x=total - self.x[::-1],
+            ends=self.ends.reversed(),
+            attachments=tuple(items[::-1]),
+            **flip,
         )
 
-    def varies(self, family: Family) -> npt.NDArray[np.bool_]:
+    @property
+    def families(self) -> tuple[FamilyName, ...]:
+        """The families of modes for which the beam has all columns."""
+        return tuple(name for name in FAMILIES if tells(self, name))
+
+    def varies(self, family: FamilyName) -> npt.NDArray[np.bool_]:
         """Tell for each interval whether anything that the family sees varies inside it."""
-        tables = [self.mass_per_length]
-        if family == "longitudinal":
-            tables.append(given(self.axial_stiffness))
-            return np.asarray(np.any([t[:, 0] != t[:, 1] for t in tables], axis=0))
-        tables += [self.bending_stiffness, self.axial_force]
-        varying = np.full(len(self.x) - 1, self.axial_acceleration != 0.0)
-        for table in tables:
+        law = FAMILIES[family].law
+        accelerates = law.has_axial_force and self.axial_acceleration != 0.0
+        varying = np.full(len(self.x) - 1, accelerates)
+        for column in law.columns:
+            table = given(self, family, column)
             varying |= table[:, 0] != table[:, 1]
         return varying
 
-    def chain(self, family: Family, refinement: int = 1) -> Chain:
+    def chain(self, family: FamilyName, refinement: int = 1) -> Chain:
         """Represent the beam by uniform segments for one family of modes.
 
         Parameters
         ----------
-        family : {"bending", "longitudinal"}
+        family : {"bending", "longitudinal", "torsion"}
         refinement : int
             Number by which the steps of the coarsest representation are divided; intervals in
             which nothing varies stay whole: they are exact.
@@ -326,30 +335,38 @@ class Beam:
             first, last = (values(interval, start + size * g)[step] for g in GAUSS)
             return np.asarray(nearer * first + (1 - nearer) * last)
 
-        stiffness = self.bending_stiffness if family == "bending" else given(self.axial_stiffness)
         first = np.concatenate([[0], np.cumsum(np.bincount(interval[step]))])
+        length = (np.diff(self.x)[interval] * size / halves)[step]
+        law = FAMILIES[family].law
+        columns = {name: self._average(family, name, average) for name in law.columns}
         left, right, points = self.points(family, first)
-        return Chain(
-            points=points,
-            length=(np.diff(self.x)[interval] * size / halves)[step],
-            mass=average(lambda k, t: self.at(self.mass_per_length, k, t)),
-            stiffness=1.0 / average(lambda k, t: 1.0 / self.at(stiffness, k, t)),
-            axial_force=average(self.axial_force_at),
-            left=left,
-            right=right,
-            family=family,
-        )
+        return Chain(law, length, columns, left, right, points)
 
-    def _uniform_chain(self, family: Family) -> Chain:
+    def _average(
+        self,
+        family: FamilyName,
+        column: str,
+        average: Callable[[Callable[[Integers, Array], Array]], Array],
+    ) -> Array:
+        """Return a column of the chain: means, of the inverse where it is a stiffness."""
+        if column == "axial_force":
+            return average(self.axial_force_at)
+        table = given(self, family, column)
+        if column == "stiffness":
+            return np.asarray(1.0 / average(lambda k, t: 1.0 / self.at(table, k, t)))
+        return average(lambda k, t: self.at(table, k, t))
+
+    def _uniform_chain(self, family: FamilyName) -> Chain:
         """Return one segment for every interval: nothing varies in any."""
-        stiffness = self.bending_stiffness if family == "bending" else given(self.axial_stiffness)
+        law = FAMILIES[family].law
         left, right, points = self.points(family)
-        tables = (self.mass_per_length, stiffness, self.axial_force)
-        m, EI, N = (np.ascontiguousarray(table[:, 0]) for table in tables)
-        return Chain(np.diff(self.x), m, EI, N, left, right, family, points)
+        columns = {
+            name: np.ascontiguousarray(given(self, family, name)[:, 0]) for name in law.columns
+        }
+        return Chain(law, np.diff(self.x), columns, left, right, points)
 
     def points(
-        self, family: Family, first: Integers | None = None
+        self, family: FamilyName, first: Integers | None = None
     ) -> tuple[str, str, tuple[Point, ...]]:
         """Return the ends with their supports, and the points at nodes of a chain.
 
@@ -359,40 +376,41 @@ class Beam:
             first = np.arange(len(self.x))
         acceleration = self.axial_acceleration if self.offset_weight else 0.0
         points = gather(self.attachments, self.x, family, acceleration)
-        ends = list(self.ends.of(family))
+        ends, law = list(self.ends.of(family)), FAMILIES[family].law
         for side, k in ((0, 0), (1, len(self.x) - 1)):
             if k in points:
-                ends[side] = held_end(ends[side], points[k].holds, family)
+                ends[side] = law.end_holding(ends[side], points[k].holds)
                 points[k] = replace(points[k], holds=())
         kept = tuple(replace(p, node=int(first[k])) for k, p in points.items())
         return ends[0], ends[1], kept
 
-    def freedoms(self, family: Family) -> Array:
+    def freedoms(self, family: FamilyName) -> Array:
         """Return the rigid motions that nothing holds.
 
         Returns
         -------
         array, shape (freedoms, 2)
-            Rows [a, b] of motions ``a + b (x - x[0])``; longitudinally only [1, 0] can occur.
+            Rows [a, b] of motions ``a + b (x - x[0])``; with one freedom only [1, 0] can occur.
         """
         if family not in self._known_freedoms:
             self._known_freedoms[family] = self._find_freedoms(family)
         return self._known_freedoms[family]
 
     @cached_property
-    def _known_freedoms(self) -> dict[Family, Array]:
+    def _known_freedoms(self) -> dict[FamilyName, Array]:
         return {}
 
-    def _find_freedoms(self, family: Family) -> Array:
-        rows = [np.zeros(2)]
+    def _find_freedoms(self, family: FamilyName) -> Array:
         left, right, points = self.points(family)
-        held = [(0.0, HOLDS[left]), (self.length, HOLDS[right])]
+        law = FAMILIES[family].law
+        held = [(0.0, law.ends[left]), (self.length, law.ends[right])]
         for point in points:
             springs = (point.spring, point.rotational_spring)
             all_held = {*point.holds, *(i for i, stiffness in enumerate(springs) if stiffness)}
             held.append((float(self.x[point.node] - self.x[0]), tuple(all_held)))
-        if family == "longitudinal":
+        if law.size == 2:
             return np.zeros((0, 2)) if any(rows for _, rows in held) else np.array([[1.0, 0.0]])
+        rows = [np.zeros(2)]
         for x, components in held:
             rows += [np.array([1.0, x / self.length]) if c == 0 else _SLOPE for c in components]
         _, size, basis = np.linalg.svd(np.array(rows))

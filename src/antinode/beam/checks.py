@@ -10,6 +10,7 @@ from antinode.arrays import Array
 from antinode.errors import InputError
 
 from .attachments import check_attachments, check_supports_apart, held_places
+from .families import FAMILIES, FamilyName
 
 if TYPE_CHECKING:
     from .beam import Beam
@@ -32,6 +33,7 @@ def check(beam: Beam) -> None:
         values = getattr(beam, name)
         if values is not None:
             _check_table(name, values, n)
+    _check_complete(beam)
     if beam.attachments:
         check_attachments(beam.attachments, beam.x)
         _check_supports(beam)
@@ -41,6 +43,21 @@ def check(beam: Beam) -> None:
                 f"no breakpoint at x = {item.x:g} m, where something is attached; "
                 "use Beam.with_attachments"
             )
+
+
+def _check_complete(beam: Beam) -> None:
+    """Refuse one column of a family without the other, but for what every beam has."""
+    for name, family in FAMILIES.items():
+        absent = [table for table in family.tables if getattr(beam, table) is None]
+        there = [table for table in family.tables if table not in (*absent, *_ALWAYS)]
+        if absent and there:
+            raise InputError(
+                f"{there[0]} is given, but {absent[0]} is missing: {name} modes need both; give "
+                "both, or neither"
+            )
+
+
+_ALWAYS = "mass_per_length", "axial_force"
 
 
 def _check_supports(beam: Beam) -> None:
@@ -67,11 +84,18 @@ TABLES = (
     "axial_stiffness",
     "axial_force",
     "radius_of_gyration",
+    "torsional_stiffness",
+    "polar_inertia_per_length",
 )
 
 
-def given(values: Array | None) -> Array:
-    """Return the axial stiffness, or say that it is missing."""
+def given(beam: Beam, name: FamilyName, column: str) -> Array:
+    """Return the beam's table for a column of a family's law, or say that it is missing."""
+    family = FAMILIES[name]
+    values: Array | None = getattr(beam, family.columns[column])
     if values is None:
-        raise InputError("axial_stiffness is missing: longitudinal modes need EA [N]")
+        raise InputError(
+            f"{family.columns[column]} is missing: {name} modes need {family.symbol} and "
+            f"{family.columns['mass']} at every station"
+        )
     return values

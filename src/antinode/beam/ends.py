@@ -5,17 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from antinode.riccati.chain import Family
+from .families import FAMILIES, FamilyName
 
 End = Literal["free", "clamped", "pinned", "sliding"]
 
 
 AxialEnd = Literal["free", "fixed"]
+TorsionEnd = AxialEnd
 
 
 @dataclass(frozen=True)
 class Ends:
-    """How the two ends are held, laterally and axially.
+    """How the two ends are held: laterally, axially, and against rotation about the axis.
 
     Parameters
     ----------
@@ -24,42 +25,30 @@ class Ends:
         direction: at a free end Q = M' + N Y' = 0 (equations 64-65).
     left_axial, right_axial : {"free", "fixed"}, optional
         Default: fixed for clamped and pinned ends, else free.
+    left_torsion, right_torsion : {"free", "fixed"}, optional
+        Default: fixed for clamped ends, else free.
     """
 
     left: End = "free"
     right: End = "free"
     left_axial: AxialEnd | None = None
     right_axial: AxialEnd | None = None
+    left_torsion: TorsionEnd | None = None
+    right_torsion: TorsionEnd | None = None
 
-    def of(self, family: Family) -> tuple[str, str]:
+    def of(self, name: FamilyName) -> tuple[str, str]:
         """Return the two ends as the solver names them for a family of modes."""
-        if family == "bending":
-            return self.left, self.right
-        return (
-            self.left_axial or _axial_default(self.left),
-            self.right_axial or _axial_default(self.right),
-        )
+        family = FAMILIES[name]
+        left, right = (getattr(self, field) for field in family.ends)
+        if family.default_end is None:
+            return left, right
+        return left or family.default_end[self.left], right or family.default_end[self.right]
 
-
-def _axial_default(end: End) -> AxialEnd:
-    return "fixed" if end in ("clamped", "pinned") else "free"
-
-
-HOLDS: dict[str, tuple[int, ...]] = {
-    "free": (),
-    "pinned": (0,),
-    "sliding": (1,),
-    "clamped": (0, 1),
-    "fixed": (0,),
-}
-
-
-def held_end(end: str, holds: tuple[int, ...], family: Family) -> str:
-    """Return an end that a support holds as well."""
-    if family == "longitudinal":
-        return "fixed" if holds else end
-    both = tuple(sorted({*HOLDS[end], *holds}))
-    return {(): "free", (0,): "pinned", (1,): "sliding", (0, 1): "clamped"}[both]
+    def reversed(self) -> Ends:
+        """Return the ends of the beam read from its other end."""
+        names = [family.ends for family in FAMILIES.values()]
+        turned = {a: getattr(self, b) for pair in names for a, b in (pair, pair[::-1])}
+        return Ends(**turned)
 
 
 FREE = Ends()

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from antinode.arrays import Array, Integers
-from antinode.riccati.chain import Family
 
 from .checks import given
+from .families import FAMILIES, FamilyName
 
 if TYPE_CHECKING:
     from .beam import Beam
@@ -29,7 +29,7 @@ def copies(times: Integers) -> tuple[Integers, Integers]:
     return index, np.arange(len(index)) - (np.cumsum(times) - times)[index]
 
 
-def coarsest_steps(beam: Beam, family: Family) -> tuple[Integers, Array, Array]:
+def coarsest_steps(beam: Beam, family: FamilyName) -> tuple[Integers, Array, Array]:
     """Divide intervals in which something varies until no step is long or steep.
 
     Returns
@@ -39,12 +39,12 @@ def coarsest_steps(beam: Beam, family: Family) -> tuple[Integers, Array, Array]:
     """
     interval = np.arange(len(beam.x) - 1)
     start, size = np.zeros(len(interval)), np.ones(len(interval))
-    main = beam.bending_stiffness if family == "bending" else given(beam.axial_stiffness)
-    varies, power = beam.varies(family), 4 if family == "bending" else 2
+    tables = [given(beam, family, column) for column in ("mass", "stiffness")]
+    varies, power = beam.varies(family), FAMILIES[family].law.power
     for _ in range(_MOST_HALVINGS):
         ends = [
             [beam.at(table, interval, start + side * size) for side in (0.0, 1.0)]
-            for table in (beam.mass_per_length, main)
+            for table in tables
         ]
         steepest = np.max([np.maximum(a / b, b / a) for a, b in ends], axis=0)
         mass, stiffness = (np.sqrt(a * b) for a, b in ends)

@@ -17,6 +17,7 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
 from antinode.beam.beam import Beam
+from antinode.beam.families import LONGITUDINAL
 from antinode.beam.file import BeamFile
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
@@ -120,7 +121,7 @@ def _loads(beam: Beam, jumps: Array) -> dict[str, Any]:
 
 def _axially_held(beam: Beam) -> set[int]:
     """Return the breakpoints that are held axially."""
-    left, right = beam.ends.of("longitudinal")
+    left, right = beam.ends.of(LONGITUDINAL)
     held = {0} if left == "fixed" else set()
     held |= {len(beam.x) - 1} if right == "fixed" else set()
     springs = [s for s in beam.attachments if isinstance(s, Spring) and s.axial]

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from antinode.modes.result import COMPONENTS, ModalResult
+from antinode.beam.families import FAMILIES
+from antinode.modes.result import ModalResult
 
 from .tabulated import tabulate
 
@@ -61,8 +62,8 @@ def mat_variables(result: ModalResult) -> dict[str, Any]:
     for key in SCALARS:
         variables[key] = np.array([float(getattr(m, key)) for m in modes])
     variables["bracket_omega2"] = np.array([m.bracket_omega2 for m in modes]).T
-    for family, components in COMPONENTS.items():
-        for index, (symbol, _, _) in enumerate(components):
+    for family in result.families:
+        for index, (symbol, _, _) in enumerate(FAMILIES[family].quantities):
             columns = [
                 m.states[:, index] if m.family == family else np.full(len(result.x), np.nan)
                 for m in modes

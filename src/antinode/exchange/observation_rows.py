@@ -9,12 +9,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from antinode.beam.families import BENDING, LONGITUDINAL
 from antinode.show.dataset import to_json, write_text, write_whole
 
 from .beam_toml import toml_text
 from .formats import Format
 
-FAMILIES = ("bending", "longitudinal")
+FAMILIES = (BENDING, LONGITUDINAL)
 _HEAD = """\
 # Observations for an identification file, beside its case and what of it may change:
 # put them into it, or name a .csv of them with observations = "FILE.csv".

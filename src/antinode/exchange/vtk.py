@@ -16,7 +16,8 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
-from antinode.modes.result import COMPONENTS, ModalResult, Mode
+from antinode.beam.families import FAMILIES
+from antinode.modes.result import ModalResult, Mode
 
 LINE = 3
 """VTK's number for a cell of two points."""
@@ -73,19 +74,18 @@ def vtu_text(result: ModalResult) -> str:
 
 def array_name(mode: Mode) -> str:
     """Return the name of a mode's array: its name with its frequency."""
-    name = mode.name if mode.number or mode.family == "bending" else "longitudinal rigid"
     if mode.omega2 < 0:
-        return f"{name}, grows at {mode.growth_rate_per_s:.6g} 1/s"
-    return f"{name}, {mode.frequency_hz:.6g} Hz"
+        return f"{mode.name}, grows at {mode.growth_rate_per_s:.6g} 1/s"
+    return f"{mode.name}, {mode.frequency_hz:.6g} Hz"
 
 
 def _point_data(result: ModalResult) -> Iterable[str]:
     for mode in result.modes:
-        family, name = mode.family, array_name(mode)
+        family, name = FAMILIES[mode.family], array_name(mode)
         vector = np.zeros((len(result.x), 3))
-        vector[:, 1 if family == "bending" else 0] = mode.shape
-        yield _array(f"{name} [m]", vector)
-        for index, (symbol, unit, _) in enumerate(COMPONENTS[family][1:], 1):
+        vector[:, family.freedoms[0] % 3] = mode.shape  # a rotation about x points along x
+        yield _array(f"{name} [{family.quantities[0].unit}]", vector)
+        for index, (symbol, unit, _) in enumerate(family.quantities[1:], 1):
             yield _array(f"{name}: {symbol} [{unit}]", mode.states[:, index])
 
 

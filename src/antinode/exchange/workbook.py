@@ -16,11 +16,12 @@ from typing import Any
 import numpy as np
 
 from antinode.beam.beam import Beam
+from antinode.beam.families import FAMILIES
 from antinode.errors import InputError
 from antinode.extras import import_extra
 from antinode.inputs.reading import COLUMN_UNITS, MOST_ROWS, Row, read_bytes, station_columns
 from antinode.inputs.units import unit_factor
-from antinode.modes.result import COMPONENTS, ModalResult
+from antinode.modes.result import ModalResult
 from antinode.show.dataset import modal_table
 from antinode.text import nearest, short
 
@@ -121,9 +122,9 @@ def _number(value: object) -> float | None:
 
 
 def _fill_shapes(book: Any, result: ModalResult) -> None:
-    for family, components in COMPONENTS.items():
+    for family, entry in FAMILIES.items():
         modes = [mode for mode in result.modes if mode.family == family]
-        for index, (symbol, unit, _) in enumerate(components):
+        for index, (symbol, unit, _) in enumerate(entry.quantities):
             if modes:
                 header = ["x [m]", *(f"{mode.name}: {symbol} [{unit}]" for mode in modes)]
                 table = np.stack([result.x, *(m.states[:, index] for m in modes)], axis=1)

@@ -18,6 +18,7 @@ from antinode.arrays import Array, Integers
 from antinode.beam.ends import FREE, Ends
 from antinode.errors import InputError
 from antinode.riccati.chain import Chain
+from antinode.riccati.laws import BENDING
 from antinode.riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
 from antinode.riccati.shapes import split_for
 
@@ -262,7 +263,7 @@ def _alone(
     below = rigid_modes_of(batch.ends)
     h = batch.length[row if len(batch.length) > 1 else 0]
     m, EI, N = (getattr(batch, name)[row] for name in _ARRAYS[1:])
-    chain = Chain(h, m, EI, N, batch.ends.left, batch.ends.right)
+    chain = Chain(BENDING, h, BENDING.named(m, EI, N), batch.ends.left, batch.ends.right)
     zeros = below if not np.any(N) else int(translates(batch.ends))
     try:
         found = kernel.find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import ComputationError
 from antinode.riccati.chain import Chain, count_below, omega2_scale
@@ -73,14 +74,14 @@ def buckling(beam: Beam, tolerance: float = 1e-6) -> Buckling | None:
     ComputationError
         If the tolerance is out of reach.
     """
-    rotations = int("rotation" in rigid_modes(beam, "bending"))
+    rotations = int("rotation" in rigid_modes(beam, BENDING))
     refinement = 1
-    found = _critical(beam.chain("bending", refinement), rotations)
-    if found is None or not np.any(beam.varies("bending")):
+    found = _critical(beam.chain(BENDING, refinement), rotations)
+    if found is None or not np.any(beam.varies(BENDING)):
         return None if found is None else _buckling(found, 0.0)
     while refinement < 256:
         refinement *= 2
-        coarse, found = found, _critical(beam.chain("bending", refinement), rotations)
+        coarse, found = found, _critical(beam.chain(BENDING, refinement), rotations)
         if found is None:
             break
         error = abs(sum(found) - sum(coarse)) / 2 / 8
@@ -143,5 +144,5 @@ def _range_of_factors(chain: Chain) -> tuple[float, float]:
 def _diverge(chain: Chain, factor: float) -> int:
     """Return how many eigenvalues are negative under `factor` times the axial force."""
     points = tuple(replace(p, own_load=factor * p.own_load) for p in chain.points)
-    loaded = replace(chain, axial_force=factor * chain.axial_force, points=points)
+    loaded = replace(chain.with_columns(axial_force=factor * chain.axial_force), points=points)
     return int(count_below(loaded, [-1e-13 * omega2_scale(chain)])[0])

@@ -17,6 +17,7 @@ import numpy as np
 
 from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.beam.representation import LIMITS
 from antinode.errors import InputError
@@ -110,14 +111,14 @@ def _beam_of(problem: HasBeam) -> Beam:
 
 
 def _by_modes(beam: Beam, modes: int, tolerance: float) -> Frequencies:
-    result = solve_modes(beam, modes, tolerance=tolerance, families=("bending",))
+    result = solve_modes(beam, modes, tolerance=tolerance, families=(BENDING,))
     found = [mode for mode in result.modes if mode.number][:modes]
     return Frequencies(
         np.array([mode.omega2 for mode in found]),
         np.array([mode.error_omega2 for mode in found]),
         np.array([mode.bracket_omega2 for mode in found]),
         np.array([mode.counts for mode in found]),
-        result.segments["bending"],
+        result.segments[BENDING],
     )
 
 
@@ -137,7 +138,7 @@ def _by_kernel(
     found = compiled.solve_beam(tables, rigid, modes, refinement, float(tolerance), _WIDTH)
     if found.reason != compiled.CERTIFIED or not np.isfinite(found.error).all():
         return None
-    if found.omega2[0] < 0 and "translation" in rigid_modes(beam, "bending"):
+    if found.omega2[0] < 0 and "translation" in rigid_modes(beam, BENDING):
         return None  # its omega^2 = 0 lies above an elastic mode: indices do not tell them apart
     return Frequencies(found.omega2, found.error, found.bracket, found.counts, found.segments)
 
@@ -147,5 +148,5 @@ def _held_and_accelerated(
     beam: Beam,
 ) -> tuple[tuple[str, str, tuple[Point, ...]], int, float, Array]:
     """Return the ends and points of a beam, its rigid modes, acceleration and mass left of x."""
-    held, rigid = beam.points("bending"), len(rigid_modes(beam, "bending"))
+    held, rigid = beam.points(BENDING), len(rigid_modes(beam, BENDING))
     return held, rigid, float(beam.axial_acceleration), beam.mass_left

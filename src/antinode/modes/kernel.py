@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from antinode.riccati import shapes
+from antinode.riccati.laws import BENDING
 
 _LARGE = 50_000  # segments times modes from which reading the cache takes less time than numpy
 _HUGE = 800_000  # ... and compiling
@@ -85,7 +86,8 @@ def _try(compiled: Any) -> None:
     structure = tuple(one[0] for _ in range(3))
     guess = np.ones((1, 1))
     compiled.certify_guesses(structure, one, ends, 2, 1e-10, guess, (*out[:3], counts, out[3]))
-    chain = compiled.Chain(np.full(8, 0.125), *(np.ones(8) for _ in range(3)))
+    ones = BENDING.named(*(np.ones(8) for _ in range(3)))
+    chain = compiled.Chain(BENDING, np.full(8, 0.125), ones)
     compiled.find_eigenvalues(chain, 3, zeros=2)
     omega2 = np.array([500.0])
     states = compiled.mode_states(chain, omega2, np.ones(1, np.int64))

@@ -5,14 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 from antinode.beam.beam import Beam
-from antinode.riccati.chain import Family
+from antinode.beam.families import FamilyName
 from antinode.riccati.roots import Eigenvalue
 
 from .result import Mode
 from .rigid import exact_zeros, rigid_modes
 
 
-def name_modes(beam: Beam, family: Family, eigenvalues: list[Eigenvalue]) -> list[tuple[str, int]]:
+def name_modes(
+    beam: Beam, family: FamilyName, eigenvalues: list[Eigenvalue]
+) -> list[tuple[str, int]]:
     """Return name and number of each eigenvalue, rigid modes set aside by index."""
     rigid = list(rigid_modes(beam, family))
     names: list[tuple[str, int] | None] = [None] * len(eigenvalues)

@@ -8,14 +8,12 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
-from antinode.errors import ComputationError
-from antinode.riccati.chain import Chain, Family, omega2_scale
-from antinode.riccati.literal import find_eigenvalues_tmm
-from antinode.riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
+from antinode.beam.families import FamilyName
+from antinode.riccati.chain import Chain, omega2_scale
+from antinode.riccati.roots import Eigenvalue
 
-from .kernel import kernel_if_worthwhile
-from .result import Method
 from .rigid import exact_zeros, rigid_modes
+from .solvers import COUNTING, Solver
 
 ROUNDING = 64 * np.finfo(float).eps  # times the conditioning of an eigenvalue
 _MOST_SEGMENTS = 100_000
@@ -38,11 +36,12 @@ class Solved:
     chain: Chain
     eigenvalues: list[Eigenvalue]
     discretisation: Array
+    """Of omega^2 [rad^2/s^2]; NaN where the solver proves nothing."""
     warnings: list[str]
 
 
 def solve_family(
-    beam: Beam, family: Family, modes: int, tolerance: float, method: Method
+    beam: Beam, family: FamilyName, modes: int, tolerance: float, solver: Solver = COUNTING
 ) -> Solved:
     """Refine until the estimated error of every wanted frequency is within the tolerance.
 
@@ -56,14 +55,15 @@ def solve_family(
     refinement = max(1, wanted // _MODES_PER_REFINEMENT)
     chain = beam.chain(family, refinement)
     smooth = smooth and _resolves_force(chain)
-    eigenvalues = _certified(chain, wanted, zeros)
+    eigenvalues = COUNTING.find(chain, wanted, zeros=zeros).eigenvalues
     levels = [_omega2(eigenvalues)]
     error = np.zeros(len(eigenvalues))
     warnings: list[str] = []
     while np.any(beam.varies(family)):
         refinement *= 2
         chain, before = beam.chain(family, refinement), error
-        eigenvalues = _certified(chain, wanted, zeros, _expected(levels))
+        expected = _expected(levels)
+        eigenvalues = COUNTING.find(chain, wanted, zeros=zeros, expected=expected).eigenvalues
         levels.append(_omega2(eigenvalues))
         error = _discretisation_error(levels[-3:])
         relative = _relative_error(chain, levels[-1], error)
@@ -77,15 +77,16 @@ def solve_family(
                     f"{tolerance:g}; see the errors, or ask for fewer modes or a larger tolerance"
                 )
             break
-    if method == "tmm":
-        eigenvalues, error, more = _by_tmm(chain, eigenvalues, error, zeros)
-        warnings += more
-    return Solved(chain, eigenvalues, error, warnings)
+    if solver.certificate == COUNTING.certificate:
+        return Solved(chain, eigenvalues, error, warnings)
+    found = solver.find(chain, wanted, zeros=zeros)
+    unknown = np.full(len(found.eigenvalues), np.nan)
+    return Solved(chain, found.eigenvalues, unknown, [*warnings, *found.warnings])
 
 
 def _resolves_force(chain: Chain) -> bool:
     """Tell whether no segment is long against sqrt(EI/N), the width of a layer at an end."""
-    if chain.family == "longitudinal":
+    if not chain.law.has_axial_force:
         return True
     return bool(np.all(np.abs(chain.axial_force) * chain.length**2 < _LAYER * chain.stiffness))
 
@@ -97,27 +98,6 @@ def _expected(levels: list[Array]) -> Array | None:
     last, change = levels[-1], levels[-1] - levels[-2]
     spread = np.maximum(np.abs(change) / 64, _LIKELY * np.abs(last))
     return np.unique(last + change / 16 + spread * _BESIDE[:, None])
-
-
-def _certified(
-    chain: Chain, wanted: int, zeros: int, expected: Array | None = None
-) -> list[Eigenvalue]:
-    width = 1e-10 if len(chain.length) <= 1000 else 2e-10
-    compiled = kernel_if_worthwhile(len(chain.length), wanted)
-    try:
-        if compiled is not None:
-            fast = compiled.find_eigenvalues(chain, wanted, zeros=zeros, width=width)
-            if fast is not None and check_certificate(fast):
-                return list(fast)
-        found = find_eigenvalues(chain, wanted, zeros=zeros, width=width, expected=expected)
-    except (CountingError, FloatingPointError) as error:
-        raise ComputationError(
-            f"the {chain.family} eigenvalues could not be certified: {error}; "
-            "check stiffness, mass and axial force for values of a wrong unit"
-        ) from error
-    if not check_certificate(found):
-        raise ComputationError(f"the counts of the {chain.family} modes contradict each other")
-    return found
 
 
 def _omega2(eigenvalues: list[Eigenvalue]) -> Array:
@@ -165,24 +145,3 @@ def _is_noise(error: Array, before: Array, relative: Array) -> bool:
     common = min(len(error), len(before))
     falls_little = np.any(before) and np.all(error[:common] > before[:common] / 4)
     return bool(falls_little and np.max(relative) < _NEAR_ZERO)
-
-
-def _by_tmm(
-    chain: Chain, certified: list[Eigenvalue], error: Array, zeros: int
-) -> tuple[list[Eigenvalue], Array, list[str]]:
-    """Replace certified eigenvalues by those of the transfer matrix method, and compare."""
-    lowest, highest = certified[0].omega2, certified[-1].omega2
-    below = min(1.5 * lowest, -1e-3 * abs(highest))
-    found = find_eigenvalues_tmm(
-        chain, len(certified), below=below, above=1.1 * abs(highest), zeros=zeros
-    )
-    steps = sum(e.counts == (e.index - 1, e.index) or e.omega2 == 0.0 for e in found)
-    warnings = []
-    if steps < len(certified):
-        warnings.append(
-            f"{chain.family}: the transfer matrix scan confirms {steps} of "
-            f"{len(certified)} eigenvalues; use the default method for a certified list"
-        )
-    if not found:
-        raise ComputationError(f"the transfer matrix scan found no {chain.family} mode")
-    return found, np.resize(error, len(found)), warnings

@@ -12,8 +12,9 @@ import numpy.typing as npt
 from antinode.arrays import Array
 from antinode.beam.attachments import attachment_dict
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
-from antinode.riccati.chain import Chain, Family
+from antinode.riccati.chain import Chain
 from antinode.riccati.shapes import propagate
 
 if TYPE_CHECKING:
@@ -22,17 +23,6 @@ if TYPE_CHECKING:
 Kind = Literal["rigid", "elastic", "divergent"]
 Method = Literal["riccati", "tmm"]
 Normalisation = Literal["amplitude", "mass"]
-
-COMPONENTS: dict[str, tuple[tuple[str, str, str], ...]] = {
-    "bending": (
-        ("Y", "m", "lateral displacement"),
-        ("theta", "rad", "slope"),
-        ("M", "N m", "bending moment EI Y''"),
-        ("Q_y", "N", "lateral force M' + N Y'"),
-    ),
-    "longitudinal": (("X", "m", "axial displacement"), ("Q_x", "N", "compressive force -EA X'")),
-}
-"""Symbol, unit and meaning of the state components of each family (equation 56)."""
 
 NOT_MODELLED = (
     "shear deformation and rotary inertia (their effect is estimated to first order)",
@@ -50,7 +40,7 @@ class Mode:
 
     Attributes
     ----------
-    family : {"bending", "longitudinal"}
+    family : {"bending", "longitudinal", "torsion"}
     number : int
         1, 2, ... in order of omega^2; 0 for a rigid mode.
     name : str
@@ -66,8 +56,10 @@ class Mode:
     error_omega2 : float
         Distance to the eigenvalue of the beam as given [rad^2/s^2]: that to the bracket's end,
         which is certain, and the estimated error of representing what varies by uniform segments.
+        NaN where the method certifies nothing.
     modal_mass : float
-        Integral of m Y^2 for the shape as normalised [kg m^2 / m^2].
+        Integral of m Y^2 for the shape as normalised [kg m^2 / m^2]; of rho I_p phi^2 in torsion
+        [kg m^2].
     residual : float
         Relative difference of the Rayleigh quotient of the shape from omega2.
     model_error : float or None
@@ -76,10 +68,10 @@ class Mode:
     unloaded_omega2 : float or None
         omega^2 of the same mode without axial force, where it was asked for.
     states : array, shape (points, 4) or (points, 2)
-        Along `ModalResult.x`: Y, theta, M, Q_y or X, Q_x.
+        Along `ModalResult.x`: Y, theta, M, Q_y, or X, Q_x, or phi, T.
     """
 
-    family: Family
+    family: FamilyName
     number: int
     name: str
     kind: Kind
@@ -130,7 +122,7 @@ class Mode:
 
     @property
     def shape(self) -> Array:
-        """Displacement Y or X along `ModalResult.x`, shape (points,)."""
+        """Displacement Y, X or phi along `ModalResult.x`, shape (points,)."""
         return np.asarray(self.states[:, 0])
 
 
@@ -202,25 +194,30 @@ class ModalResult:
     tolerance: float
     normalisation: Normalisation
     segments: dict[str, int]
-    solutions: dict[Family, Solution] = field(repr=False)
+    solutions: dict[FamilyName, Solution] = field(repr=False)
     warnings: tuple[str, ...]
 
     def __str__(self) -> str:
         lines = [f"{self.beam.name}: {len(self.modes)} modes"]
         for mode in self.modes:
             value = (
-                f"{mode.frequency_hz:12.6g} Hz +- {mode.error_hz:.1e}"
+                f"{mode.frequency_hz:12.6g} Hz{_plus_minus(mode.error_hz)}"
                 if mode.omega2 >= 0
                 else f"grows at {mode.growth_rate_per_s:.6g} 1/s"
             )
             lines.append(f"  {mode.name:<20} {mode.kind:<10} {value}")
         return "\n".join([*lines, *(f"  warning: {w}" for w in self.warnings)])
 
-    def family(self, family: Family) -> tuple[Mode, ...]:
+    @property
+    def families(self) -> tuple[FamilyName, ...]:
+        """The families that were solved."""
+        return tuple(self.solutions)
+
+    def family(self, family: FamilyName) -> tuple[Mode, ...]:
         """Return the modes of one family."""
         return tuple(mode for mode in self.modes if mode.family == family)
 
-    def mode(self, family: Family, number: int) -> Mode:
+    def mode(self, family: FamilyName, number: int) -> Mode:
         """Return an elastic or divergent mode by its family and number."""
         for mode in self.modes:
             if (mode.family, mode.number) == (family, number):
@@ -228,19 +225,19 @@ class ModalResult:
         have = ", ".join(m.name for m in self.modes if m.number)
         raise InputError(f"there is no mode {family} {number} in this result; it has {have}")
 
-    def at(self, x: npt.ArrayLike, family: Family = "bending") -> Array:
+    def at(self, x: npt.ArrayLike, family: FamilyName = BENDING) -> Array:
         """Evaluate the modes of a family anywhere along the beam.
 
         Parameters
         ----------
         x : array_like, shape (points,)
             Positions [m] on the beam.
-        family : {"bending", "longitudinal"}
+        family : {"bending", "longitudinal", "torsion"}
 
         Returns
         -------
         array, shape (points, modes, 4) or (points, modes, 2)
-            Y, theta, M, Q_y or X, Q_x of every mode of `ModalResult.family`, exact for the chain.
+            The components of `FAMILIES` for every mode of the family, exact for the chain.
         """
         points = np.atleast_1d(np.asarray(x, dtype=float)) - self.beam.x[0]
         if np.any((points < 0) | (points > self.beam.length * (1 + 1e-12))):
@@ -248,7 +245,7 @@ class ModalResult:
             raise InputError(f"x must lie on the beam, from {low:g} to {high:g} m")
         return self.solutions[family].at(points)
 
-    def frequencies_hz(self, family: Family = "bending") -> Array:
+    def frequencies_hz(self, family: FamilyName = BENDING) -> Array:
         """Return the frequencies of modes 1, 2, ... of a family [Hz], NaN where divergent."""
         return np.array([m.frequency_hz for m in self.family(family) if m.number])
 
@@ -273,6 +270,10 @@ class ModalResult:
         return modal_dataset(self)
 
 
+def _plus_minus(error: float) -> str:
+    return "" if math.isnan(error) else f" +- {error:.1e}"
+
+
 def _mode_dict(mode: Mode) -> dict[str, Any]:
     return {
         "family": mode.family,
@@ -285,7 +286,7 @@ def _mode_dict(mode: Mode) -> dict[str, Any]:
         "omega2": mode.omega2,
         "bracket_omega2": list(mode.bracket_omega2),
         "counts": list(mode.counts),
-        "error_omega2": mode.error_omega2,
+        "error_omega2": null(mode.error_omega2),
         "growth_rate_per_s": null(mode.growth_rate_per_s),
         "error_growth_rate_per_s": null(mode.error_growth_rate_per_s),
         "unloaded_frequency_hz": null(hertz(mode.unloaded_omega2))

@@ -7,36 +7,37 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
-from antinode.riccati.chain import Chain, Family
+from antinode.beam.families import FAMILIES, FamilyName
+from antinode.riccati.chain import Chain
 
 
-def rigid_modes(beam: Beam, family: Family) -> tuple[str, ...]:
+def rigid_modes(beam: Beam, name: FamilyName) -> tuple[str, ...]:
     """Return the names of the rigid modes that the supports leave, e.g. translation, rotation."""
-    freedoms = beam.freedoms(family)
+    rigid, freedoms = FAMILIES[name].rigid, beam.freedoms(name)
     if len(freedoms) == 2:
-        return "translation", "rotation"
-    return tuple("translation" if _is_translation(row, beam) else "rotation" for row in freedoms)
+        return rigid
+    return tuple(rigid[0 if _is_translation(row, beam) else 1] for row in freedoms)
 
 
 def _is_translation(freedom: Array, beam: Beam) -> bool:
     return bool(abs(freedom[1]) * beam.length < 1e-9 * abs(freedom[0]))
 
 
-def exact_zeros(beam: Beam, family: Family) -> int:
+def exact_zeros(beam: Beam, name: FamilyName) -> int:
     """Return how many rigid modes have omega^2 = 0 exactly: translation, and all without N."""
-    rigid = rigid_modes(beam, family)
-    if family == "bending" and not beam.is_unloaded:
+    rigid = rigid_modes(beam, name)
+    if FAMILIES[name].law.has_axial_force and not beam.is_unloaded:
         return int("translation" in rigid)
     return len(rigid)
 
 
 def rigid_state(beam: Beam, chain: Chain, name: str) -> Array:
     """Return the state of a rigid mode at omega^2 = 0, shape (nodes, s)."""
-    state = np.zeros((len(chain.length) + 1, 4 if chain.family == "bending" else 2))
-    if name == "rigid translation":
+    state = np.zeros((len(chain.length) + 1, chain.law.size))
+    if name == f"rigid {FAMILIES[chain.law.name].rigid[0]}":
         state[:, 0] = 1.0
         return state
-    freedoms = beam.freedoms("bending")
+    freedoms = beam.freedoms(chain.law.name)
     held = len(freedoms) == 1
     pivot = -freedoms[0, 0] / freedoms[0, 1] if held else _centre_of_mass(chain)
     state[:, 0], state[:, 1] = chain.nodes - pivot, 1.0

@@ -6,6 +6,7 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
+from antinode.beam.families import FAMILIES
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import Eigenvalue
 from antinode.riccati.shapes import Energies, propagate
@@ -36,8 +37,7 @@ def shapes(
     names: list[tuple[str, int]],
 ) -> Array:
     """Return the states of the kept modes at all nodes; rigid modes at omega^2 = 0 are known."""
-    size = 4 if chain.family == "bending" else 2
-    states = np.zeros((len(chain.length) + 1, len(keep), size))
+    states = np.zeros((len(chain.length) + 1, len(keep), chain.law.size))
     free = [c for c, k in enumerate(keep) if eigenvalues[k].omega2 != 0.0 or names[k][1] > 0]
     for c in set(range(len(keep))) - set(free):
         states[:, c] = rigid_state(beam, chain, names[keep[c]][0])
@@ -92,7 +92,7 @@ def estimate_model_errors(
     ``-1/2 [int m r^2 theta^2 + int M'^2/(kGA) / omega^2] / int m Y^2``, with the shear stiffness
     kGA = EA / (4 (1 + nu)) of a thin-walled tube, nu = 0.3.
     """
-    if chain.family != "bending" or beam.axial_stiffness is None:
+    if not FAMILIES[chain.family].rotary or beam.axial_stiffness is None:
         return [None] * len(omega2)
     middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2 + beam.x[0]
     k = np.clip(np.searchsorted(beam.x, middle) - 1, 0, len(beam.x) - 2)

@@ -17,18 +17,18 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
+from antinode.beam.families import FAMILIES, FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import ComputationError, InputError
-from antinode.riccati.chain import Family, omega2_scale
+from antinode.riccati.chain import omega2_scale
 
 from .kernel import shapes_for
 from .naming import name_modes, with_joint_brackets
 from .refinement import ROUNDING, Solved, solve_family
 from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .shapes import estimate_model_errors, normalising_factors, on_grid, output_grid, shapes
+from .solvers import solver_of
 from .warnings import result_warnings
-
-FAMILIES: tuple[Family, ...] = ("bending", "longitudinal")
 
 
 class HasBeam(Protocol):
@@ -45,7 +45,7 @@ def solve_modes(
     modes: int = 6,
     *,
     tolerance: float = 1e-6,
-    families: Sequence[Family] | None = None,
+    families: Sequence[FamilyName] | None = None,
     method: Method = "riccati",
     normalisation: Normalisation = "amplitude",
     unloaded: bool = False,
@@ -60,8 +60,8 @@ def solve_modes(
         Elastic modes 1 ... `modes` of each family; rigid and divergent ones always come along.
     tolerance : float
         Largest relative error of a frequency that is allowed to what varies inside segments.
-    families : sequence of {"bending", "longitudinal"}, optional
-        Default: both, or bending alone where the beam has no axial stiffness.
+    families : sequence of {"bending", "longitudinal", "torsion"}, optional
+        Default: all for which the beam has the columns.
     method : {"riccati", "tmm"}
         "tmm" scans the determinant of equation 66 instead: for comparison, without a certificate.
     normalisation : {"amplitude", "mass"}
@@ -84,15 +84,16 @@ def solve_modes(
         raise InputError(f"modes is {modes}; allowed are 1 ... 500 for each family")
     if not 1e-12 <= tolerance <= 0.1:
         raise InputError(f"tolerance is {tolerance:g}; allowed are 1e-12 ... 0.1 (relative)")
+    solver = solver_of(method)
     beam = problem if isinstance(problem, Beam) else problem.beam()
-    chosen = families or (FAMILIES if beam.axial_stiffness is not None else FAMILIES[:1])
+    chosen = tuple(families or beam.families)
     grid = output_grid(beam, modes)
     found: list[Mode] = []
     segments: dict[str, int] = {}
-    solutions: dict[Family, Solution] = {}
+    solutions: dict[FamilyName, Solution] = {}
     warnings: list[str] = []
     for family in chosen:
-        solved = solve_family(beam, family, modes, tolerance, method)
+        solved = solve_family(beam, family, modes, tolerance, solver)
         named, solutions[family] = _modes_of(beam, solved, grid, modes, normalisation)
         found += named
         segments[family] = len(solved.chain.length)
@@ -178,17 +179,21 @@ def _mode(
 
 
 def _compare_unloaded(beam: Beam, found: list[Mode], modes: int, tolerance: float) -> list[Mode]:
-    """Attach to every bending mode its omega^2 without axial force."""
-    most = max((m.number for m in found if m.family == "bending"), default=0)
-    if most == 0:
-        return found
-    free = beam.without_axial_force()
-    solved = solve_family(free, "bending", max(modes, most), tolerance, "riccati")
-    names = name_modes(free, "bending", solved.eigenvalues)
-    omega2 = {
-        name: value.omega2 for (name, _), value in zip(names, solved.eigenvalues, strict=True)
-    }
+    """Attach to every mode its omega^2 without axial force: its own where N does not matter."""
+    moved = {m.family for m in found if FAMILIES[m.family].law.has_axial_force}
+    free = {name: _unloaded(beam, name, found, modes, tolerance) for name in moved}
     return [
-        replace(m, unloaded_omega2=omega2.get(m.name) if m.family == "bending" else m.omega2)
+        replace(m, unloaded_omega2=free[m.family].get(m.name) if m.family in free else m.omega2)
         for m in found
     ]
+
+
+def _unloaded(
+    beam: Beam, family: FamilyName, found: list[Mode], modes: int, tolerance: float
+) -> dict[str, float]:
+    """Return omega^2 without axial force by the names of the modes of a family."""
+    most = max(m.number for m in found if m.family == family)
+    free = beam.without_axial_force()
+    solved = solve_family(free, family, max(modes, most), tolerance)
+    names = name_modes(free, family, solved.eigenvalues)
+    return {name: value.omega2 for (name, _), value in zip(names, solved.eigenvalues, strict=True)}

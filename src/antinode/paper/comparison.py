@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.families import BENDING
 from antinode.errors import ComputationError
 from antinode.modes.solve import solve_modes
 from antinode.show.loads_table import condition_dict
@@ -188,5 +189,5 @@ def compare() -> Comparison:
 def _line(row: Row) -> Line:
     case = load_case(example(), row.settings)
     modes = max(case.solve.modes, MODES)
-    result = solve_modes(case, modes, tolerance=case.solve.tolerance, families=["bending"])
+    result = solve_modes(case, modes, tolerance=case.solve.tolerance, families=[BENDING])
     return Line(row, case, result.frequencies_hz()[:MODES])

@@ -9,7 +9,7 @@ import numpy as np
 from antinode.show.style import GREY, zero_line
 
 from .comparison import Comparison
-from .plates import BENDING, letter, sheet
+from .plates import COLOURS, letter, sheet
 from .scene import Scene
 from .tables import MODES, TABLES, Table
 
@@ -51,7 +51,7 @@ def _panel(axes: Axes, comparison: Comparison, table: Table) -> None:
         values = [100 * line.differences[mode] for line in lines]
         spread = place + 0.11 * (mode - (MODES - 1) / 2)
         axes.plot(
-            spread, values, _MARKERS[mode], color=BENDING[mode], markersize=3.5,
+            spread, values, _MARKERS[mode], color=COLOURS[mode], markersize=3.5,
             label=f"bending {mode + 1}",
         )  # fmt: skip
     for sign in (-1, 1):

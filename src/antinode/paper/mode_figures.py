@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from antinode.arrays import Array
-from antinode.riccati.chain import Family
+from antinode.beam.families import BENDING, LONGITUDINAL, FamilyName
 from antinode.riccati.literal import riccati_characteristic, tmm_characteristic
 from antinode.show.style import GREY, INK, zero_line
 
-from .plates import BENDING, letter, sheet
+from .plates import COLOURS, letter, sheet
 from .scene import Scene
 
 if TYPE_CHECKING:
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 Drawn = tuple["Figure", str]
 _HIGHEST = 70.0  # Hz
-_BLUE, _RED, _GREEN, _PINK = BENDING[:4]
-_FAMILIES = ("bending", "longitudinal")
+_BLUE, _RED, _GREEN, _PINK = COLOURS[:4]
+_FAMILIES = (BENDING, LONGITUDINAL)
 _AMPLITUDE = 1e-3  # m
 _LINEAR = 0.05  # below it the scale of figure 9 is linear
 
@@ -101,7 +101,7 @@ def _riccati(axes: Axes, scene: Scene, f: Array) -> None:
 
 def _mark(axes: Axes, scene: Scene) -> None:
     """Mark roots on the line of zero, and poles."""
-    marks = (("bending", "o", _BLUE, "--"), ("longitudinal", "s", _GREEN, ":"))
+    marks = ((BENDING, "o", _BLUE, "--"), (LONGITUDINAL, "s", _GREEN, ":"))
     for family, marker, colour, dashes in marks:
         roots = _roots(scene, family)
         axes.plot(
@@ -139,8 +139,8 @@ def _transfer_matrix(axes: Axes, scene: Scene) -> None:
 
 
 def _close_up(axes: Axes, scene: Scene, number: int, mark: str) -> None:
-    root = scene.result.mode("bending", number).frequency_hz
-    poles = _poles(scene, "bending")
+    root = scene.result.mode(BENDING, number).frequency_hz
+    poles = _poles(scene, BENDING)
     pole = float(poles[np.argmin(np.abs(poles - root))])
     half = 3.0 * abs(pole - root)
     low, high = root - half, root + half
@@ -169,7 +169,7 @@ class StateFigure:
         With ``{at}`` for the cavitation number and ``{largest}`` for the amplitude.
     """
 
-    family: Family
+    family: FamilyName
     index: int
     factor: float
     label: str
@@ -191,7 +191,7 @@ class StateFigure:
             for k, dashes in zip(range(first, first + 3), ("-", "--", "-."), strict=True):
                 values = states[:, columns[modes[k].name], self.index] * _AMPLITUDE * self.factor
                 text = f"{modes[k].name}\n{modes[k].frequency_hz:.3f} Hz"
-                axes.plot(x, values, color=BENDING[k], linestyle=dashes, label=text)
+                axes.plot(x, values, color=COLOURS[k], linestyle=dashes, label=text)
             zero_line(axes)
             letter(axes, f"modes {first + 1} to {first + 3}", mark)
             axes.set_ylabel(self.label)
@@ -202,7 +202,7 @@ class StateFigure:
 
 
 shapes_x = StateFigure(
-    "longitudinal",
+    LONGITUDINAL,
     0,
     1e3,
     "X [mm]",
@@ -211,7 +211,7 @@ shapes_x = StateFigure(
     "frequencies are the reconstruction's own, not the paper's.",
 )
 shapes_y = StateFigure(
-    "bending",
+    BENDING,
     0,
     1e3,
     "Y [mm]",
@@ -219,7 +219,7 @@ shapes_y = StateFigure(
     "up, for a largest displacement of 1 mm.",
 )
 shapes_theta = StateFigure(
-    "bending",
+    BENDING,
     1,
     1e3,
     r"$\theta_z$ [mrad]",
@@ -227,7 +227,7 @@ shapes_theta = StateFigure(
     "nose-down.",
 )
 forces_x = StateFigure(
-    "longitudinal",
+    LONGITUDINAL,
     1,
     1e-3,
     "$Q_x$ [kN]",
@@ -235,7 +235,7 @@ forces_x = StateFigure(
     "both free ends. EA is assumed.",
 )
 forces_y = StateFigure(
-    "bending",
+    BENDING,
     3,
     1e-3,
     "$Q_y$ [kN]",
@@ -243,7 +243,7 @@ forces_y = StateFigure(
     "undeformed axis, is continuous where N steps, and vanishes at both free ends.",
 )
 moments = StateFigure(
-    "bending",
+    BENDING,
     2,
     1e-3,
     "$M_z$ [kN m]",

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _CAPTION_SIZE, _CAPTION_COLUMNS = 7.5, 128
 _LINE = _CAPTION_SIZE * 1.4 / 72  # inches
 _SYMBOL = re.compile(r"\b([^\W\d_])_(\w+)\b")
-BENDING = PALETTE[:6]
+COLOURS = PALETTE[:6]
 
 
 @dataclass(frozen=True)

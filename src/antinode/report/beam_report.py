@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING
 from antinode.beam.file import BeamFile
 from antinode.modes.buckling import buckling
 from antinode.modes.result import ModalResult
@@ -30,7 +31,7 @@ _STATIONS = 11
 def beam_report(file: BeamFile, result: ModalResult, source: Source, command: str) -> Document:
     """Return the document on a beam and its modes, solved with `unloaded=True`."""
     beam = result.beam
-    modes = sum(mode.number > 0 for mode in result.family("bending"))
+    modes = sum(mode.number > 0 for mode in result.family(BENDING))
     moved = beam_influences(file, min(modes, _MOST_MODES), result.tolerance)
     sections = [
         method_section(vehicle=False),

@@ -11,6 +11,7 @@ from pydantic import BaseModel
 
 from antinode.beam.attachments import Attachment, Joint, PointMass, Spring, name_of
 from antinode.beam.beam import Beam
+from antinode.beam.families import LONGITUDINAL
 from antinode.beam.file import BeamFile
 from antinode.vehicle.case import Case
 
@@ -169,7 +170,7 @@ def beam_inputs(file: BeamFile, beam: Beam) -> list[Section]:
         if getattr(stations, name) is not None
     ]
     sides = [
-        (side, getattr(ends, side), ends.of("longitudinal")[k])
+        (side, getattr(ends, side), ends.of(LONGITUDINAL)[k])
         for k, side in enumerate(("left", "right"))
     ]
     blocks: list[Block] = [

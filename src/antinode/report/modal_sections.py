@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from antinode.beam.families import BENDING
 from antinode.modes.buckling import Buckling
 from antinode.modes.result import ModalResult, Mode, hertz
 from antinode.show.style import pyplot, styled
@@ -101,7 +102,7 @@ def axial_section(result: ModalResult, buckles: Buckling | None) -> Section:
             number(mode.frequency_hz, 7) if mode.omega2 >= 0 else "divergent",
             percent(mode.shift),
         )
-        for mode in result.family("bending")
+        for mode in result.family(BENDING)
         if mode.number and mode.unloaded_omega2 is not None
     ]
     head = ("mode", "without N [Hz]", "with N [Hz]", "change")
@@ -127,7 +128,7 @@ def _buckling_words(result: ModalResult, buckles: Buckling | None) -> str:
 
 def result_in_brief(result: ModalResult) -> str:
     """Return the first modes in one sentence."""
-    parts = [_in_words(mode) for mode in result.family("bending") if mode.number][:3]
+    parts = [_in_words(mode) for mode in result.family(BENDING) if mode.number][:3]
     text = "; ".join(parts) + "." if parts else ""
     return text[:1].upper() + text[1:]
 

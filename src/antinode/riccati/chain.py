@@ -18,55 +18,70 @@ side tell its inertia without dividing by anything that can vanish.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, Integers
-from .points import Point, StepKind, hold
-from .segment import LONGEST_STEP, bending_transfer, longitudinal_transfer, wave_number
+from .frames import determinant, displacement_sign, hold, inverse_upper, orthonormalise
+from .laws import Columns, Law, LawName, Units
+from .points import Point, StepKind
+from .segment import LONGEST_STEP
 
-Family = Literal["bending", "longitudinal"]
-
-ZERO_COMPONENTS: dict[str, dict[str, list[int]]] = {
-    "bending": {"free": [2, 3], "clamped": [0, 1], "pinned": [0, 2], "sliding": [1, 3]},
-    "longitudinal": {"free": [1], "fixed": [0]},
-}
-"""Components of the state that an end sets to zero: of [Y, theta, M, Q] and of [X, Q]."""
-
-_BLOCK_PHASE = 1.25  # wave number times length at which a block of short segments is closed
-_BLOCK_LIMIT = 2.5  # ... and the bound, with the block's extreme properties, that it must keep
 _LARGEST_STACK = 4_000_000  # matrix entries held at once
 
 
 @dataclass(frozen=True)
 class Chain:
-    """Uniform segments from left to right with constant axial force, and two ends.
+    """Uniform segments from left to right that obey one law, and two ends.
 
     Parameters
     ----------
-    length, mass, stiffness : array, shape (n,)
-        Length [m], mass per length [kg/m]; EI [N m^2] in bending, EA [N] longitudinally.
-    axial_force : array, shape (n,)
-        N [N], compression positive; ignored by the longitudinal family.
+    law : Law
+    length : array, shape (n,)
+        [m].
+    columns : dict of array, shape (n,)
+        The law's columns by name, e.g. `mass`, `stiffness` and `axial_force`.
     left, right : str
-        Keys of `ZERO_COMPONENTS` of the family.
-    family : {"bending", "longitudinal"}
+        Names of ends of the law.
     points : tuple of Point
         What sits at the nodes, at most one for each node, in order.
     """
 
+    law: Law
     length: Array
-    mass: Array
-    stiffness: Array
-    axial_force: Array
+    columns: Columns
     left: str = "free"
     right: str = "free"
-    family: Family = "bending"
     points: tuple[Point, ...] = ()
+
+    @property
+    def family(self) -> LawName:
+        """Name of the law."""
+        return self.law.name
+
+    @property
+    def mass(self) -> Array:
+        """Inertia per length: m [kg/m], or rho I_p [kg m] in torsion, shape (n,)."""
+        return self.columns["mass"]
+
+    @property
+    def stiffness(self) -> Array:
+        """EI [N m^2], EA [N] or GJ [N m^2], shape (n,)."""
+        return self.columns["stiffness"]
+
+    @property
+    def axial_force(self) -> Array:
+        """N [N], compression positive, of a law that has it; shape (n,)."""
+        return self.columns["axial_force"]
+
+    def with_columns(self, **columns: Array) -> Chain:
+        """Return the chain with some of its columns replaced."""
+        return replace(self, columns={**self.columns, **columns})
 
     @cached_property
     def nodes(self) -> Array:
@@ -75,15 +90,9 @@ class Chain:
 
     def split(self, pieces: Integers) -> Chain:
         """Return the same chain with segment k cut into ``pieces[k]`` equal ones."""
-        arrays: dict[str, Any] = {
-            name: np.repeat(getattr(self, name), pieces)
-            for name in ("mass", "stiffness", "axial_force")
-        }
         first = np.concatenate([[0], np.cumsum(pieces)])
-        points = tuple(replace(p, node=int(first[p.node])) for p in self.points)
-        return replace(
-            self, length=np.repeat(self.length / pieces, pieces), points=points, **arrays
-        )
+        length = np.repeat(self.length / pieces, pieces)
+        return self._with_segments(length, lambda values: np.repeat(values, pieces), first)
 
     def cut_at(self, positions: Array) -> Chain:
         """Return the same chain with a joint at each of the positions [m] as well."""
@@ -92,12 +101,16 @@ class Chain:
         gap = np.minimum(np.abs(nodes[after] - positions), np.abs(positions - nodes[after - 1]))
         cuts = np.sort(np.concatenate([nodes, positions[gap > 1e-12 * nodes[-1]]]))
         owner = np.clip(np.searchsorted(nodes, (cuts[1:] + cuts[:-1]) / 2) - 1, 0, len(nodes) - 2)
-        arrays: dict[str, Any] = {
-            name: getattr(self, name)[owner] for name in ("mass", "stiffness", "axial_force")
-        }
         places = np.searchsorted(cuts, nodes - 1e-13 * nodes[-1])
+        return self._with_segments(np.diff(cuts), lambda values: values[owner], places)
+
+    def _with_segments(
+        self, length: Array, column: Callable[[Array], Array], places: Integers
+    ) -> Chain:
+        """Return the chain with other segments, and its points at the new places of their nodes."""
+        columns = {name: column(values) for name, values in self.columns.items()}
         points = tuple(replace(p, node=int(places[p.node])) for p in self.points)
-        return replace(self, length=np.diff(cuts), points=points, **arrays)
+        return replace(self, length=length, columns=columns, points=points)
 
     @cached_property
     def reference(self) -> tuple[float, float]:
@@ -105,31 +118,29 @@ class Chain:
         weight = self.length / np.sum(self.length)
         return float(np.exp(weight @ np.log(self.stiffness))), float(weight @ self.mass)
 
+    def units(self, omega2: Array) -> Units:
+        """Return what scales the states, so that those of a wave at `omega2` are of order one."""
+        return Units(self.law.scale_length(self, omega2), self.reference[0])
+
     def scale_length(self, omega2: Array) -> Array:
         """Return the length [m] that makes the states of a wave at `omega2` of order one."""
-        stiffness, mass = self.reference
-        inertia = np.abs(omega2) * mass / stiffness
-        total = float(np.sum(self.length))
-        if self.family == "longitudinal":
-            return (inertia + total**-2) ** -0.5
-        weight = self.length / np.sum(self.length)
-        b = float(weight @ np.abs(self.axial_force)) / stiffness
-        return (inertia + b * b + total**-4) ** -0.25
+        return self.law.scale_length(self, omega2)
 
 
 def omega2_scale(chain: Chain) -> float:
     """Return a natural unit of omega^2 for the chain [rad^2/s^2]: EI/(m L^4) or EA/(m L^2)."""
     stiffness, mass = chain.reference
-    power = 4 if chain.family == "bending" else 2
-    return stiffness / (mass * float(np.sum(chain.length)) ** power)
+    return float(stiffness / (mass * float(np.sum(chain.length)) ** chain.law.power))
 
 
 def largest_wave_number(chain: Chain, omega2: float) -> Array:
     """Return the bound on the wave number of every segment at `omega2` [1/m], shape (n,)."""
-    inertia = chain.mass * abs(omega2)
-    if chain.family == "longitudinal":
-        return np.sqrt(inertia / chain.stiffness)
-    return wave_number(chain.stiffness, chain.axial_force, inertia)
+    return chain.law.wave_number(chain, omega2)
+
+
+def state_units(chain: Chain, omega2: Array) -> Array:
+    """Return what one unit of each scaled state component is in SI, shape (k, s)."""
+    return chain.law.state_units(chain.units(omega2))
 
 
 def split_long(chain: Chain, omega2: float, limit: float = LONGEST_STEP) -> Chain:
@@ -143,22 +154,17 @@ def split_long(chain: Chain, omega2: float, limit: float = LONGEST_STEP) -> Chai
 def block_starts(chain: Chain, omega2: float) -> Integers:
     """Return the first segment of each block: blocks have no clamped-clamped root up to `omega2`.
 
-    A block of length H is safe where the wave number of a beam with its smallest stiffness and
-    largest mass and axial force, times H, is small against 4.73 (2 pi if buckling governs, pi for
-    a bar).
+    A block of length H is safe where the wave number of a uniform one with its softest and heaviest
+    columns, times H, is within the law's limit.
     """
+    law = chain.law
     phase = np.cumsum(largest_wave_number(chain, omega2) * chain.length)
-    first = np.flatnonzero(np.diff(np.floor(phase / _BLOCK_PHASE), prepend=-1.0))
+    first = np.flatnonzero(np.diff(np.floor(phase / law.block_phase), prepend=-1.0))
     inner = [p.node for p in chain.points if 0 < p.node < len(chain.length)]
     starts: Integers = np.unique(np.concatenate([[0], first[1:], inner]).astype(np.int64))
-    worst = replace(
-        chain,
-        length=np.add.reduceat(chain.length, starts),
-        stiffness=np.minimum.reduceat(chain.stiffness, starts),
-        mass=np.maximum.reduceat(chain.mass, starts),
-        axial_force=np.maximum.reduceat(np.abs(chain.axial_force), starts),
-    )
-    unsafe = largest_wave_number(worst, omega2) * worst.length > _BLOCK_LIMIT
+    length = np.add.reduceat(chain.length, starts)
+    worst = replace(chain, length=length, columns=law.worst(chain.columns, starts))
+    unsafe = largest_wave_number(worst, omega2) * worst.length > law.block_limit
     if not np.any(unsafe):
         return starts
     block = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(chain.length)))
@@ -185,25 +191,11 @@ def segment_transfers(
     Returns
     -------
     array, shape (n, k, s, s)
-        For states ``[Y/l, theta, M l/EI0, Q l^2/EI0]`` (or ``[X/l, Q/EA0]``), with l from
-        `Chain.scale_length` and EI0 from `Chain.reference`.
+        For states in units of `state_units`.
     """
-    scale, (stiffness, _) = chain.scale_length(omega2), chain.reference
-    h = (chain.length[segment] if length is None else length)[:, None] / scale
-    rigidity, mass = chain.stiffness[segment, None] / stiffness, chain.mass[segment, None]
-    if chain.family == "longitudinal":
-        return longitudinal_transfer(h, rigidity, mass * (omega2 * scale**2 / stiffness))
-    N = chain.axial_force[segment, None] * (scale**2 / stiffness)
-    return bending_transfer(h, rigidity, N, mass * (omega2 * scale**4 / stiffness))
-
-
-def state_units(chain: Chain, omega2: Array) -> Array:
-    """Return what one unit of each scaled state component is in SI, shape (k, s)."""
-    scale, (stiffness, _) = chain.scale_length(omega2), chain.reference
-    one = np.ones_like(scale)
-    if chain.family == "longitudinal":
-        return np.stack([scale, stiffness * one], axis=-1)
-    return np.stack([scale, one, stiffness / scale, stiffness / scale**2], axis=-1)
+    columns = {name: values[segment, None] for name, values in chain.columns.items()}
+    distance = (chain.length[segment] if length is None else length)[:, None]
+    return chain.law.transfer(distance, columns, omega2, chain.units(omega2))
 
 
 def multiply_groups(U: Array, starts: Integers) -> Array:
@@ -219,31 +211,6 @@ def multiply_groups(U: Array, starts: Integers) -> Array:
     return U
 
 
-def orthonormalise(F: Array) -> tuple[Array, Array]:
-    """Return Q and upper triangular R with positive diagonal, ``F = Q R``, for one or two columns.
-
-    Parameters
-    ----------
-    F : array, shape (..., s, d)
-    """
-    Q, R = np.empty_like(F), np.zeros((*F.shape[:-2], F.shape[-1], F.shape[-1]))
-    for j in range(F.shape[-1]):
-        column = F[..., j]
-        for i in range(j):
-            R[..., i, j] = np.einsum("...s,...s->...", Q[..., i], column)
-            column = column - R[..., i, j, None] * Q[..., i]
-        R[..., j, j] = np.sqrt(np.einsum("...s,...s->...", column, column))
-        Q[..., j] = column / R[..., j, j, None]
-    return Q, R
-
-
-def end_frame(chain: Chain, end: str, lanes: int) -> Array:
-    """Return the frame of states that satisfy an end, free displacements first, (lanes, s, d)."""
-    size = 4 if chain.family == "bending" else 2
-    free = [i for i in range(size) if i not in ZERO_COMPONENTS[chain.family][end]]
-    return np.broadcast_to(np.eye(size)[:, free], (lanes, size, len(free))).copy()
-
-
 class Steps(NamedTuple):
     """Blocks of segments and points in the order in which a sweep passes them."""
 
@@ -252,43 +219,56 @@ class Steps(NamedTuple):
     kind: list[StepKind]
     holds: list[tuple[int, ...]]
     """Displacements held by every step that is a support."""
+    symplectic: Array
 
     def reversed(self) -> Steps:
         """Return the steps as the sweep from the right end passes them."""
-        J = symplectic_form(self.U.shape[-1])
+        J = self.symplectic
         inverse = -J @ np.swapaxes(self.U, -1, -2) @ J
-        return Steps(inverse[::-1], self.kind[::-1], self.holds[::-1])
-
-
-def symplectic_form(size: int) -> Array:
-    """Return J with ``U^T J U = J`` for every transfer matrix; ``J^-1 = -J``."""
-    if size == 2:
-        return np.array([[0.0, 1.0], [-1.0, 0.0]])
-    J = np.zeros((4, 4))
-    J[0, 3], J[3, 0], J[1, 2], J[2, 1] = -1.0, 1.0, 1.0, -1.0
-    return J
+        return Steps(inverse[::-1], self.kind[::-1], self.holds[::-1], J)
 
 
 def make_steps(chain: Chain, omega2: Array, blocks: Array, starts: Integers) -> Steps:
     """Put the points of a chain between its blocks."""
+    J = chain.law.symplectic
     if not chain.points:
-        return Steps(blocks, ["block"] * len(blocks), [()] * len(blocks))
+        return Steps(blocks, ["block"] * len(blocks), [()] * len(blocks), J)
     units = state_units(chain, omega2)
     at = {point.node: point for point in chain.points}
-    matrices: list[Array] = []
-    kinds: list[StepKind] = []
-    holds: list[tuple[int, ...]] = []
+    steps: list[tuple[StepKind, Array, tuple[int, ...]]] = []
     for k, node in enumerate([*starts.tolist(), len(chain.length)]):
-        steps = at[node].steps(blocks.shape[-1], omega2, units) if node in at else ()
-        for kind, matrix in steps:
-            matrices.append(matrix)
-            kinds.append(kind)
-            holds.append(at[node].holds if kind == "support" else ())
+        if node in at:
+            steps += point_steps(chain.law, at[node], omega2, units)
         if k < len(blocks):
-            matrices.append(blocks[k])
-            kinds.append("block")
-            holds.append(())
-    return Steps(np.stack(matrices), kinds, holds)
+            steps.append(("block", blocks[k], ()))
+    kinds, matrices, holds = zip(*steps, strict=True)
+    return Steps(np.stack(matrices), list(kinds), list(holds), J)
+
+
+def point_steps(
+    law: Law, point: Point, omega2: Array, units: Array
+) -> list[tuple[StepKind, Array, tuple[int, ...]]]:
+    """Return kind, scaled matrix and held displacements of the steps of a point, left to right.
+
+    Parameters
+    ----------
+    omega2 : array, shape (k,)
+    units : array, shape (k, s)
+        SI value of one unit of each scaled state component.
+    """
+    steps: list[tuple[StepKind, Array, tuple[int, ...]]] = []
+    if point.holds:
+        unit = np.broadcast_to(np.eye(law.size), (len(omega2), law.size, law.size))
+        steps.append(("support", unit, point.holds))
+    if point.loads:
+        steps.append(("load", _scaled(law.load(point, omega2), units), ()))
+    if point.compliance:
+        steps.append(("joint", _scaled(law.joint(point, len(omega2)), units), ()))
+    return steps
+
+
+def _scaled(T: Array, units: Array) -> Array:
+    return np.asarray(T * units[:, None, :] / units[:, :, None])
 
 
 class Sweep(NamedTuple):
@@ -324,77 +304,30 @@ def sweep(steps: Steps, start: Array) -> Sweep:
     return Sweep(F, R, back, factor)
 
 
-def inverse_upper(R: Array) -> Array:
-    """Return the inverse of upper triangular 1x1 or 2x2 matrices."""
-    inverse = np.zeros_like(R)
-    for j in range(R.shape[-1]):
-        inverse[..., j, j] = 1.0 / R[..., j, j]
-    if R.shape[-1] == 2:
-        inverse[..., 0, 1] = -R[..., 0, 1] * inverse[..., 0, 0] * inverse[..., 1, 1]
-    return inverse
+def end_frame(chain: Chain, side: int, units: Array) -> Array:
+    """Return the frame of states that an end admits: side 0 or -1, units (k, s); (k, s, d)."""
+    return chain.law.admitted((chain.left, chain.right)[side], _beside(chain, side), units)
 
 
-def minor(F: Array, rows: list[int]) -> Array:
-    """Return the determinant of the given rows of the frames, shape (...,)."""
-    if len(rows) == 1:
-        return F[..., rows[0], 0]
-    i, j = rows
-    return F[..., i, 0] * F[..., j, 1] - F[..., i, 1] * F[..., j, 0]
+def _beside(chain: Chain, side: int) -> dict[str, float]:
+    """Return the columns of the segment beside an end."""
+    return {name: float(values[side]) for name, values in chain.columns.items()}
 
 
-def negative_at_nodes(steps: Steps, frames: Sweep) -> Integers:
+def characteristic(chain: Chain, F: Array, units: Array) -> Array:
+    """Return the determinant of what the right end wants to vanish in the last frame, (k,)."""
+    return determinant(chain.law.conditions(chain.right, _beside(chain, -1), units) @ F)
+
+
+def negative_at_nodes(law: Law, steps: Steps, frames: Sweep) -> Integers:
     """Count the negative eigenvalues met while the nodes are condensed, shape (lanes,)."""
     kind = np.array(steps.kind)
     block, joint = np.flatnonzero(kind == "block"), np.flatnonzero(kind == "joint")
-    in_blocks = _negative_in_blocks(steps.U[block], frames.F, frames.R, block)
-    before, after = (displacement_sign(frames.F[joint + side]) for side in (0, 1))
+    in_blocks = law.negative_in_blocks(
+        steps.U[block], frames.F[block], frames.F[block + 1], frames.R[block + 1]
+    )
+    before, after = (displacement_sign(frames.F[joint + k], law.behind) for k in (0, 1))
     return np.asarray(in_blocks + np.sum(before * after < 0, axis=0), dtype=np.int64)
-
-
-def _negative_in_blocks(U: Array, F: Array, R: Array, block: Integers) -> Integers:
-    here, following = F[block], F[block + 1]
-    changes = displacement_sign(here) * displacement_sign(following) < 0
-    if F.shape[-1] == 1:
-        return np.asarray(np.sum(changes, axis=0))
-    P_adjugate = np.empty((*U.shape[:-2], 2, 2))  # P adj(U12); det U12 > 0 in every block
-    P_adjugate[..., 0, 0], P_adjugate[..., 0, 1] = U[..., 1, 2], -U[..., 0, 2]
-    P_adjugate[..., 1, 0], P_adjugate[..., 1, 1] = U[..., 1, 3], -U[..., 0, 3]
-    A_next = following[:, :, :2] @ R[block + 1]
-    trace = np.sum(here[:, :, :2] * (P_adjugate @ A_next), axis=(-2, -1))
-    held = minor(here, [0, 1]) == 0.0  # a supported node has one freedom, or none
-    return np.asarray(np.sum(np.where(changes, 1, np.where((trace < 0) & ~held, 2, 0)), axis=0))
-
-
-def displacement_sign(F: Array) -> Array:
-    """Return what changes its sign where a state of the frame has no displacement.
-
-    That is det A; at a node that is held, the one free displacement, or the sign that A takes just
-    behind it. Both neighbours of a node use the same number, so that its rounding cannot spoil the
-    sum of their counts.
-    """
-    d = F.shape[-1]
-    A = F[..., :d, :]
-    determinant = minor(F, list(range(d)))
-    free = np.sum(A[..., 0], axis=-1)
-    behind = 1.0 if d == 2 else -1.0  # of U12: a reaction Q pushes toward -x
-    return np.where(determinant != 0.0, determinant, np.where(free != 0.0, free, behind))
-
-
-def negative_at_end(F: Array, family: Family, right: str) -> Integers:
-    """Count the negative eigenvalues of the stiffness of the whole, seen by the right end."""
-    if family == "longitudinal":
-        negative = F[..., 1, 0] * F[..., 0, 0] > 0
-        return np.where(right == "free", negative, False).astype(np.int64)
-    held = minor(F, [0, 1])
-    along_theta, along_Y = minor(F, [0, 2]) * held, minor(F, [1, 3]) * held
-    if right == "pinned":
-        return (along_theta < 0).astype(np.int64)
-    if right == "sliding":
-        return (along_Y < 0).astype(np.int64)
-    if right == "clamped":
-        return np.zeros(held.shape, dtype=np.int64)
-    indefinite = minor(F, [2, 3]) * held < 0
-    return np.where(indefinite, 1, np.where(along_theta + along_Y < 0, 2, 0))
 
 
 class Evaluation(NamedTuple):
@@ -430,14 +363,14 @@ def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
 
 
 def _evaluate(fine: Chain, omega2: Array, largest: float) -> Evaluation:
-    starts = block_starts(fine, largest)
+    starts, units = block_starts(fine, largest), state_units(fine, omega2)
     blocks = multiply_groups(segment_transfers(fine, omega2), starts)
     steps = make_steps(fine, omega2, blocks, starts)
-    frames = sweep(steps, end_frame(fine, fine.left, len(omega2)))
+    frames = sweep(steps, end_frame(fine, 0, units))
     last = frames.F[-1]
-    below = negative_at_nodes(steps, frames) + negative_at_end(last, fine.family, fine.right)
-    rows = ZERO_COMPONENTS[fine.family][fine.right]
-    return Evaluation(below, frames.factor * minor(last, rows))
+    at_end = fine.law.negative_at_end(last, fine.right)
+    below = negative_at_nodes(fine.law, steps, frames) + at_end
+    return Evaluation(below, frames.factor * characteristic(fine, last, units))
 
 
 def count_below(chain: Chain, omega2: npt.ArrayLike) -> Integers:

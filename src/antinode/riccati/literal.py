@@ -12,7 +12,6 @@ import numpy.typing as npt
 
 from .arrays import Array
 from .chain import (
-    ZERO_COMPONENTS,
     Chain,
     evaluate,
     make_steps,
@@ -25,9 +24,8 @@ from .roots import CountingError, Eigenvalue
 
 def _left_partition(chain: Chain) -> tuple[list[int], list[int]]:
     """Return the state components that the left end leaves free (Z_a) and sets to zero (Z_b)."""
-    zero = ZERO_COMPONENTS[chain.family][chain.left]
-    size = 4 if chain.family == "bending" else 2
-    return [i for i in range(size) if i not in zero], zero
+    zero = chain.law.zeros(chain.left)
+    return [i for i in range(chain.law.size) if i not in zero], zero
 
 
 def _all_steps(fine: Chain, lanes: Array) -> Array:
@@ -57,12 +55,12 @@ def tmm_characteristic(chain: Chain, omega2: npt.ArrayLike) -> Array:
     """
     lanes = np.atleast_1d(np.asarray(omega2, dtype=float))
     fine = split_long(chain, float(np.max(np.abs(lanes))))
-    U_all = np.eye(4 if chain.family == "bending" else 2)
+    U_all = np.eye(chain.law.size)
     for U in _all_steps(fine, lanes):
         U_all = U @ U_all
         U_all = U_all / np.max(np.abs(U_all), axis=(-2, -1), keepdims=True)
     free, _ = _left_partition(chain)
-    rows = ZERO_COMPONENTS[chain.family][chain.right]
+    rows = chain.law.zeros(chain.right)
     return np.asarray(np.linalg.det(U_all[:, rows][:, :, free]))
 
 
@@ -97,7 +95,7 @@ def riccati_characteristic(chain: Chain, omega2: npt.ArrayLike) -> Array:
         S = (U21 + U22 @ S) @ np.linalg.inv(denominator)
     state = np.empty((len(lanes), len(a) + len(b), len(a)))
     state[:, a], state[:, b] = np.eye(len(a)), S
-    return np.asarray(sign * np.linalg.det(state[:, ZERO_COMPONENTS[chain.family][chain.right]]))
+    return np.asarray(sign * np.linalg.det(state[:, chain.law.zeros(chain.right)]))
 
 
 def find_eigenvalues_tmm(

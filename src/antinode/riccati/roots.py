@@ -122,23 +122,15 @@ def _first_guesses(chain: Chain, wanted: int) -> Array:
     """Return samples between the roots that a slowly varying chain would have, and some below 0."""
     scale = omega2_scale(chain)
     trial = scale * np.logspace(-2, 6 + 4 * np.log10(wanted + 2), 200)
-    phase = np.array([np.sum(_oscillation(chain, w) * chain.length) for w in trial]) / np.pi
+    phase = (
+        np.array([np.sum(chain.law.oscillation(chain, w) * chain.length) for w in trial]) / np.pi
+    )
     targets = np.arange(0.25, wanted + 2.5, 0.5)
     guesses: Array = np.interp(targets, phase, trial)
-    if chain.family == "longitudinal":
+    below = chain.law.lowest(chain)
+    if below == 0.0:
         return guesses
-    b = np.max(np.maximum(chain.axial_force, 0) / chain.stiffness)
-    below = scale * (1 + b * np.sum(chain.length) ** 2) ** 2
     return np.concatenate([guesses, -below * np.logspace(-6, 0, 4)])
-
-
-def _oscillation(chain: Chain, omega2: float) -> Array:
-    """Return the wave number of the oscillating solutions, lambda_2 of equation 51 [1/m]."""
-    c = chain.mass * omega2 / chain.stiffness
-    if chain.family == "longitudinal":
-        return np.sqrt(c)
-    b = chain.axial_force / chain.stiffness / 2
-    return np.sqrt(np.maximum(b + np.sqrt(b * b + c), 0.0))
 
 
 def _extend(samples: Samples, wanted: int) -> None:

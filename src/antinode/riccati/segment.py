@@ -5,7 +5,7 @@ Bending, state ``z = [Y, theta, M, Q]`` with ``M = EI Y''`` and ``Q = M' + N Y'`
     z' = A z,   A = [[0, 1, 0, 0], [0, 0, 1/EI, 0], [0, -N, 0, 1], [m omega^2, 0, 0, 0]]
 
 so that ``Y'''' + b Y'' - c Y = 0`` with ``b = N/EI``, ``c = m omega^2/EI`` (equations 50-51).
-Longitudinal, state ``[X, Q]`` with ``Q = -EA X'``.
+A bar has the state ``[X, Q]`` with ``Q = -EA X'``, a shaft ``[phi, T]`` with ``T = GJ phi'``.
 
 The paper writes U = B(x) B(0)^-1 with the four roots of the quartic (equation 61). Here U is
 written with the one solution ``g`` that starts as ``g = g' = g'' = 0, g''' = 1`` and its
@@ -116,20 +116,23 @@ def bending_transfer(
     return U
 
 
-def longitudinal_transfer(h: Array, axial_stiffness: Array, inertia: Array) -> Array:
-    """Return the longitudinal transfer matrix of uniform segments (equations 48, 55, 58).
+def wave_transfer(h: Array, stiffness: Array, inertia: Array, sign: float) -> Array:
+    """Return the transfer matrix of uniform segments that obey the wave equation (48, 55, 58).
 
     Parameters
     ----------
-    h, axial_stiffness, inertia : array
-        Length [m], EA [N], m omega^2 [N/m^2]; broadcast together.
+    h, stiffness, inertia : array
+        Length [m], K and m omega^2; broadcast together. K is EA [N] of a bar, GJ [N m^2] of a
+        shaft, m its mass or polar inertia per length.
+    sign : float
+        s of the force ``F = s K u'``: -1 for a bar, 1 for a shaft.
 
     Returns
     -------
     array, shape (..., 2, 2)
-        ``z(h) = U z(0)``, ``z = [X, Q]``, ``Q = -EA X'``.
+        ``z(h) = U z(0)``, ``z = [u, F]``.
     """
-    c = inertia / axial_stiffness
+    c = inertia / stiffness
     h, z = np.broadcast_arrays(h, -c * h * h)
     coefficients = _inverse_factorials(_terms_needed(math.sqrt(float(np.max(np.abs(z))))))[2:]
     powers = np.empty((coefficients.shape[1], *z.shape))
@@ -139,6 +142,6 @@ def longitudinal_transfer(h: Array, axial_stiffness: Array, inertia: Array) -> A
     sine, cosine = (coefficients @ powers.reshape(len(powers), -1)).reshape(2, *h.shape)
     U = np.empty((*h.shape, 2, 2))
     U[..., 0, 0] = U[..., 1, 1] = cosine
-    U[..., 0, 1] = -h * sine / axial_stiffness
-    U[..., 1, 0] = h * sine * inertia
+    U[..., 0, 1] = sign * (h * sine) / stiffness
+    U[..., 1, 0] = -sign * (h * sine) * inertia
     return U

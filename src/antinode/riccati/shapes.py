@@ -28,9 +28,8 @@ from .chain import (
     split_long,
     state_units,
     sweep,
-    symplectic_form,
 )
-from .points import Point
+from .laws import Squares
 
 _CANDIDATE_NODES = 12  # matching nodes tried for a cluster of modes
 
@@ -46,14 +45,13 @@ class Matching(NamedTuple):
     """The state closest to both frames, of norm one, (steps + 1, lanes, s)."""
 
 
-def match(chain: Chain, steps: Steps) -> Matching:
+def match(chain: Chain, steps: Steps, units: Array) -> Matching:
     """Sweep from both ends through the steps and compare the frames between them."""
-    lanes, size = steps.U.shape[1], steps.U.shape[-1]
-    left = sweep(steps, end_frame(chain, chain.left, lanes))
-    from_right = sweep(steps.reversed(), end_frame(chain, chain.right, lanes))
+    left = sweep(steps, end_frame(chain, 0, units))
+    from_right = sweep(steps.reversed(), end_frame(chain, -1, units))
     F, R, back, factor = from_right
     right = Sweep(F[::-1], R[::-1], back[::-1], factor)
-    product = np.swapaxes(left.F, -1, -2) @ symplectic_form(size) @ right.F
+    product = np.swapaxes(left.F, -1, -2) @ chain.law.symplectic @ right.F
     gap, null = _smallest_singular(product)
     return Matching(left, right, gap, np.einsum("...sd,...d->...s", right.F, null))
 
@@ -140,8 +138,8 @@ def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
     Returns
     -------
     array, shape (n + 1, k, s)
-        ``[Y, theta, M, Q]`` or ``[X, Q]`` in SI up to one factor per mode; the members of a cluster
-        are independent of each other.
+        The law's components, e.g. ``[Y, theta, M, Q]``, in SI up to one factor per mode; the
+        members of a cluster are independent of each other.
     """
     largest = float(np.max(np.abs(omega2)))
     fine = split_for(chain, omega2)
@@ -174,7 +172,8 @@ def _states(fine: Chain, omega2: Array, multiplicity: Integers, largest: float) 
     U = segment_transfers(fine, omega2)
     starts = block_starts(fine, largest)
     steps = make_steps(fine, omega2, multiply_groups(U, starts), starts)
-    matching = match(fine, steps)
+    units = state_units(fine, omega2)
+    matching = match(fine, steps, units)
     node = np.argmin(matching.gap, axis=0)
     state = matching.state[node, np.arange(len(omega2))]
     z = carry_outwards(matching.left, matching.right, node, state)
@@ -186,7 +185,7 @@ def _states(fine: Chain, omega2: Array, multiplicity: Integers, largest: float) 
             members = slice(int(lane), int(lane + multiplicity[lane]))
             z[:, members] = _cluster(matching, int(lane), int(multiplicity[lane]), weight)
     states = fill_blocks(z[np.append(block, block[-1] + 1)], U, starts)
-    return states * state_units(fine, omega2)
+    return states * units
 
 
 def _cluster(matching: Matching, lane: int, members: int, weight: Array) -> Array:
@@ -245,19 +244,6 @@ def _independent(z: Array, weight: Array, quality: Array, members: int) -> Array
     return chosen
 
 
-class Squares(NamedTuple):
-    """Integrals over each segment of squares along the modes, shape (n, modes)."""
-
-    displacement: Array
-    """of Y^2 (or X^2) [m^3]"""
-    slope: Array
-    """of theta^2 [m]; zero longitudinally"""
-    moment: Array
-    """of M^2 [N^2 m^3] (or Q_x^2 [N^2 m])"""
-    shear: Array
-    """of M'^2 [N^2 m]; zero longitudinally"""
-
-
 class Energies(NamedTuple):
     """Quadratic forms of the modes, points included; shape (modes,) but for `squares`."""
 
@@ -289,26 +275,12 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> Energies:
 
 def energies(chain: Chain, states: Array, squares: Squares) -> Energies:
     """Return modal mass and stiffness from the integrals over the segments, and the points."""
-    mass = chain.mass @ squares.displacement
-    strain = (1 / chain.stiffness) @ squares.moment
-    work = chain.axial_force @ squares.slope
-    size = strain + np.abs(chain.axial_force) @ squares.slope
+    mass, strain, work, size = chain.law.forms(chain.columns, squares)
     for point in chain.points:
-        inertia, elastic = _point_energies(point, states[point.node], point.node == len(states) - 1)
+        last = point.node == len(states) - 1
+        inertia, elastic = chain.law.point_energies(point, states[point.node], last)
         mass, strain, size = mass + inertia, strain + elastic, size + np.abs(elastic)
     return Energies(squares, mass, strain - work, size)
-
-
-def _point_energies(point: Point, state: Array, last: bool) -> tuple[Array, Array]:
-    """Return a point's shares of modal mass and stiffness, from the states on its right side."""
-    if state.shape[-1] == 2:
-        X = state[:, 0] if last else state[:, 0] + point.compliance * state[:, 1]
-        return point.mass * X**2, point.spring * X**2 + point.compliance * state[:, 1] ** 2
-    Y, theta, M, _ = state.T
-    turn = theta if last else theta - point.compliance * M
-    inertia = point.mass * (Y + point.offset * turn) ** 2 + point.inertia * turn**2
-    rotational = point.rotational_spring + point.own_load * point.offset
-    return inertia, point.spring * Y**2 + rotational * turn**2 + point.compliance * M**2
 
 
 def integrate_squares(chain: Chain, states: Array, omega2: Array) -> Squares:
@@ -323,7 +295,7 @@ def integrate_squares(chain: Chain, states: Array, omega2: Array) -> Squares:
     total = np.zeros((4, len(chain.length), len(omega2)))
     for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
         z = propagate(chain, states[:-1], omega2, point * chain.length)
-        total += weight * chain.length[:, None] * _squares(chain, z)
+        total += weight * chain.length[:, None] * chain.law.squares(chain.columns, z)
     return Squares(*total)
 
 
@@ -336,14 +308,6 @@ def gauss_rule(phase: float) -> tuple[Array, Array]:
 def _rule(number: int) -> tuple[Array, Array]:
     points, weights = np.polynomial.legendre.leggauss(number)
     return (points + 1) / 2, weights / 2
-
-
-def _squares(chain: Chain, z: Array) -> Array:
-    if chain.family == "longitudinal":
-        X, Q = z[..., 0], z[..., 1]
-        return np.stack([X**2, 0 * X, Q**2, 0 * X])
-    Y, theta, M, Q = np.moveaxis(z, -1, 0)
-    return np.stack([Y**2, theta**2, M**2, (Q - chain.axial_force[:, None] * theta) ** 2])
 
 
 def propagate(

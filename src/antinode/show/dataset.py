@@ -16,9 +16,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from antinode import __version__
+from antinode.beam.families import FAMILIES
 from antinode.errors import InputError
 from antinode.extras import import_extra
-from antinode.modes.result import COMPONENTS, ModalResult, Mode
+from antinode.modes.result import ModalResult, Mode
 from antinode.text import short
 
 if TYPE_CHECKING:
@@ -63,21 +64,17 @@ def modal_dataset(result: ModalResult) -> xarray.Dataset:
         [m.counts for m in modes],
         {"units": "1", "long_name": "eigenvalues below either end of the bracket"},
     )
-    for family, components in COMPONENTS.items():
-        for i, (symbol, unit, text) in enumerate(components):
+    for family in result.families:
+        for i, (symbol, unit, text) in enumerate(FAMILIES[family].quantities):
             shapes = np.array([_component(m, family, i, len(result.x)) for m in modes])
             data[symbol] = (("mode", "x"), shapes, {"units": unit, "long_name": text})
     coordinates = {
-        "mode": [m.name + (" (longitudinal)" if _ambiguous(m) else "") for m in modes],
+        "mode": [m.name for m in modes],
         "x": ("x", result.x, {"units": "m", "long_name": "position from the left end (nose)"}),
         "bound": ["low", "high"],
     }
     dataset: xarray.Dataset = xr.Dataset(data, coordinates, attrs=_attributes(result))
     return dataset
-
-
-def _ambiguous(mode: Mode) -> bool:
-    return mode.family == "longitudinal" and mode.number == 0
 
 
 def _component(mode: Mode, family: str, index: int, points: int) -> Any:

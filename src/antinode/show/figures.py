@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from antinode.beam.families import BENDING, LONGITUDINAL
 from antinode.errors import InputError
 from antinode.modes.result import ModalResult, Mode
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from antinode.beam.beam import Beam
-    from antinode.riccati.chain import Family
+    from antinode.beam.families import FamilyName
     from antinode.vehicle.case import Case
     from antinode.vehicle.vehicle import FinSet, Vehicle
 
@@ -52,7 +53,7 @@ def plot_modes(result: ModalResult, most: int = 6) -> Figure:
 
     The axial force stands below, where there is one.
     """
-    beam, longitudinal = result.beam, _numbered(result, "longitudinal", most)
+    beam, longitudinal = result.beam, _numbered(result, LONGITUDINAL, most)
     rows = 3 + bool(longitudinal) + (not beam.is_unloaded)
     figure, axes = _stack((0.45, *[1.0] * (rows - 1)))
     draw_beam(beam, axes[0])
@@ -78,7 +79,7 @@ def plot_beam(beam: Beam) -> Figure:
 @styled()
 def plot_case(case: Case, result: ModalResult, most: int = 6) -> Figure:
     """Draw the vehicle in its cavity, its axial force and its modes, one above the other."""
-    longitudinal = _numbered(result, "longitudinal", most)
+    longitudinal = _numbered(result, LONGITUDINAL, most)
     figure, axes = _stack((0.7, *[1.0] * (3 + bool(longitudinal))))
     draw_vehicle(case, axes[0])
     draw_axial_force(case, axes[1])
@@ -89,7 +90,7 @@ def plot_case(case: Case, result: ModalResult, most: int = 6) -> Figure:
 @styled()
 def plot_shapes(result: ModalResult, most: int = 6, origin: str = "the left end") -> Figure:
     """Draw shapes and moments alone."""
-    longitudinal = _numbered(result, "longitudinal", most)
+    longitudinal = _numbered(result, LONGITUDINAL, most)
     figure, axes = _stack((1.0,) * (2 + bool(longitudinal)))
     _shape_panels(result, axes, most)
     for panel in axes:
@@ -134,7 +135,7 @@ def _titled(figure: Figure, axes: Any, title: str, label: str) -> Figure:
     return figure
 
 
-def _numbered(result: ModalResult, family: Family, most: int) -> list[Mode]:
+def _numbered(result: ModalResult, family: FamilyName, most: int) -> list[Mode]:
     """Return the modes 1, 2, ... of a family, rigid ones left out."""
     return [mode for mode in result.family(family) if mode.number][:most]
 
@@ -149,8 +150,8 @@ def case_title(case: Case) -> str:
 
 
 def _shape_panels(result: ModalResult, axes: Any, most: int) -> None:
-    bending = _numbered(result, "bending", most)
-    longitudinal = _numbered(result, "longitudinal", most)
+    bending = _numbered(result, BENDING, most)
+    longitudinal = _numbered(result, LONGITUDINAL, most)
     _curves(axes[0], result.x, bending, 0)
     axes[0].set(title="Bending modes", ylabel="Y (largest 1) [-]")
     _curves(axes[1], result.x, bending, 2, scaled=True)

@@ -119,8 +119,7 @@ def _modes_table(result: ModalResult, headings: Sequence[str], brief: bool) -> T
 
 
 def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
-    lateral = mode.number or mode.family == "bending"
-    name = mode.name if lateral else "longitudinal rigid"
+    name = mode.name
     if mode.omega2 < 0:
         growth = f"{mode.growth_rate_per_s:.5g} /s"
         error = f"{mode.error_growth_rate_per_s:.1e}"
@@ -137,8 +136,11 @@ def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
 
 
 def frequency_text(mode: Mode) -> str:
-    """Return the frequency with as many decimals as its error leaves, 4 at least, 6 at most."""
-    size = max(mode.error_hz, 1e-300)
+    """Return the frequency with as many decimals as its error leaves, 4 at least, 6 at most.
+
+    Where no error is known, 6.
+    """
+    size = 1e-6 if math.isnan(mode.error_hz) else max(mode.error_hz, 1e-300)
     decimals = int(np.clip(math.floor(-math.log10(size)), 1, 6 if mode.frequency_hz < 1e3 else 3))
     return f"{mode.frequency_hz:.{max(decimals, 4)}f}"
 

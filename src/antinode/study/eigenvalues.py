@@ -13,16 +13,17 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING, LONGITUDINAL, FamilyName
 from antinode.errors import ComputationError
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.modes.kernel import kernel
-from antinode.riccati.chain import Chain, Family
+from antinode.riccati.chain import Chain
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import Modes, Sensitivity
 from antinode.vehicle.loads import Loads
 
-Wanted = Mapping[Family, int]
+Wanted = Mapping[FamilyName, int]
 _FINEST = 16
 
 
@@ -42,13 +43,13 @@ class CaseEigenvalues:
     case: Case
     loads: Loads
     beam: Beam
-    modes: Mapping[Family, Modes] = field(repr=False)
+    modes: Mapping[FamilyName, Modes] = field(repr=False)
 
-    def sensitivity(self, family: Family) -> Sensitivity:
+    def sensitivity(self, family: FamilyName) -> Sensitivity:
         """Return the derivatives of the eigenvalues of a family."""
         return Sensitivity(self.modes[family], self.beam, self.loads)
 
-    def frequencies_hz(self, family: Family) -> Array:
+    def frequencies_hz(self, family: FamilyName) -> Array:
         """Return the frequencies of modes 1, 2, ... [Hz]; negative for a divergent mode."""
         return hertz(self.modes[family].omega2)
 
@@ -78,16 +79,16 @@ def eigenvalues_of(
     """
     kernel()  # all solves take it once it is loaded
     beams = [case.beam() for case in cases]
-    modes: list[dict[Family, Modes]] = [{} for _ in cases]
-    rows = [k for k, families in enumerate(wanted) if "bending" in families]
-    chains = [beams[k].chain("bending", refinement) for k in rows]
-    numbers = [wanted[k]["bending"] for k in rows]
+    modes: list[dict[FamilyName, Modes]] = [{} for _ in cases]
+    rows = [k for k, families in enumerate(wanted) if BENDING in families]
+    chains = [beams[k].chain(BENDING, refinement) for k in rows]
+    numbers = [wanted[k][BENDING] for k in rows]
     for k, chain, omega2 in zip(rows, chains, _bending(chains, numbers), strict=True):
-        modes[k]["bending"] = Modes(chain, omega2)
+        modes[k][BENDING] = Modes(chain, omega2)
     for k, families in enumerate(wanted):
-        if "longitudinal" in families:
-            chain = beams[k].chain("longitudinal", refinement)
-            modes[k]["longitudinal"] = Modes(chain, _solve(chain, families["longitudinal"], 1, 1))
+        if LONGITUDINAL in families:
+            chain = beams[k].chain(LONGITUDINAL, refinement)
+            modes[k][LONGITUDINAL] = Modes(chain, _solve(chain, families[LONGITUDINAL], 1, 1))
     return tuple(map(CaseEigenvalues, cases, [case.loads for case in cases], beams, modes))
 
 

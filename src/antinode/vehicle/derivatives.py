@@ -25,8 +25,9 @@ import numpy.typing as npt
 
 from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
+from antinode.beam.families import FamilyName
 from antinode.modes.kernel import shapes_for
-from antinode.riccati.chain import Chain, Family, largest_wave_number
+from antinode.riccati.chain import Chain, largest_wave_number
 from antinode.riccati.shapes import propagate
 
 from .loads import Loads, PointForce
@@ -58,7 +59,7 @@ class Modes:
     omega2: Array
 
     @property
-    def family(self) -> Family:
+    def family(self) -> FamilyName:
         """Bending or longitudinal."""
         return self.chain.family
 
@@ -106,14 +107,14 @@ class Modes:
     @cached_property
     def by_axial_force(self) -> Array:
         """Weights of dN(x), shape (q, k); zero longitudinally."""
-        if self.family == "longitudinal":
+        if not self.chain.law.has_axial_force:
             return np.zeros((len(self.x), len(self.omega2)))
         square = self._weights[:, None] * self._at_points[..., 1] ** 2
         return np.asarray(-square / self._modal_mass)
 
     def by_stiffness(self, stiffness: Array) -> Array:
         """Weights of dEI(x) or dEA(x), given what it is at the Gauss points, shape (q, k)."""
-        force = self._at_points[..., 2 if self.family == "bending" else 1]
+        force = self._at_points[..., self.chain.law.size // 2]
         square = self._weights[:, None] * (force / stiffness[:, None]) ** 2
         return np.asarray(square / self._modal_mass)
 
@@ -264,7 +265,7 @@ class Sensitivity:
     def by_force(self, change: ForceChange) -> Array:
         """Return d(omega^2) for each unit of the parameter that changes a force, shape (k,)."""
         force = next((f for f in self.loads.forces if f.name == change.name), None)
-        if force is None or self.modes.family == "longitudinal":
+        if force is None or not self.modes.chain.law.has_axial_force:
             return np.zeros(len(self.modes.omega2))
         steps = self._steps(change.name)[self._interval] - self._share_ahead
         by_drag = steps @ self.modes.by_axial_force

@@ -15,6 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.families import FAMILIES
 
 from .case import Case
 from .columns import column_values
@@ -26,7 +27,7 @@ _STEP = 2e-6
 _STATIONS = ("vehicle", "stations")
 _MASSES = ("vehicle", "masses")
 _MASS = "mass_per_length"
-_STIFFNESS = {"bending_stiffness": "bending", "axial_stiffness": "longitudinal"}
+_STIFFNESS = {family.stiffness: name for name, family in FAMILIES.items()}
 """Columns of stiffness, and the family that each of them belongs to."""
 _BURN = ("condition", "burn_fraction")
 _THRUST = ("condition", "thrust")

@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING
 from antinode.beam.limits import MOST_BUCKLED, MOST_TENSION
 from antinode.beam.representation import coarsest_steps
 
@@ -97,7 +98,7 @@ class ManyBeams:
             axial_acceleration=1.0,
             interpolation=masses.interpolation,
         )
-        interval, start, _ = coarsest_steps(beam, "bending")
+        interval, start, _ = coarsest_steps(beam, BENDING)
         x = masses.x[interval] + start * np.diff(masses.x)[interval]
         return np.unique(np.append(x, masses.x[-1]))
 

@@ -6,9 +6,10 @@ from validation.literal_methods import relative_errors, roots
 from validation.literal_methods import uniform as uniform_chain
 
 from antinode import Beam, Ends, solve_modes
-from antinode.riccati.chain import Chain, evaluate, segment_transfers
+from antinode.riccati.chain import evaluate, segment_transfers
 from antinode.riccati.literal import riccati_characteristic, tmm_characteristic
 from antinode.riccati.points import Point
+from law_chains import bar_chain
 
 
 def uniform(segments=10):
@@ -28,6 +29,15 @@ def test_fails_on_high_modes_and_says_so():
     """exp(beta L) passes 1e16 near mode 12: the scan loses roots, the counts show it."""
     result = solve_modes(uniform(), 25, method="tmm")
     assert any("use the default method" in warning for warning in result.warnings)
+
+
+def test_states_no_error_that_it_has_not():
+    """Between lost roots it lists 232.31 Hz, where the 12th mode is at 245.44 Hz."""
+    result = solve_modes(uniform(), 12, method="tmm")
+    assert all(np.isnan(mode.error_hz) for mode in result.modes if mode.number)
+    assert result.mode("bending", 1).error_hz is not None
+    assert all(entry["error_hz"] is None for entry in result.to_dict()["modes"] if entry["number"])
+    assert str(result).count("+-") == 2  # the exact zeros
 
 
 def test_keeps_what_it_finds_in_divergence():
@@ -83,7 +93,7 @@ def test_an_exact_pole_is_no_number_and_no_failure():
     """A mass and a joint at the left end of a bar: 1 - f omega^2 m_p vanishes at omega^2 = 3."""
     one = np.ones(1)
     point = Point(0, mass=1.0, compliance=1 / 3)
-    chain = Chain(one, one, one, 0 * one, "free", "free", "longitudinal", (point,))
+    chain = bar_chain(one, one, one, points=(point,))
     values = riccati_characteristic(chain, [1.0, 3.0])
     assert np.isfinite(values[0])
     assert np.isnan(values[1])

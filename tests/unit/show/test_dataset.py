@@ -11,8 +11,8 @@ import pytest
 from antinode import InputError, solve_modes
 from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
+from antinode.beam.families import FAMILIES
 from antinode.extras import import_extra
-from antinode.modes.result import COMPONENTS
 from antinode.show.dataset import check_output, modal_table, to_json, write_result
 
 
@@ -76,7 +76,7 @@ class TestDataset:
     def test_shapes_are_those_of_the_modes(self, result):
         data = result.to_dataset()
         for k, mode in enumerate(result.modes):
-            for i, (symbol, *_) in enumerate(COMPONENTS[mode.family]):
+            for i, (symbol, *_) in enumerate(FAMILIES[mode.family].quantities):
                 assert np.array_equal(data[symbol].values[k], mode.states[:, i])
         assert np.isnan(data["X"].sel(mode="bending 1")).all()
 

@@ -81,7 +81,7 @@ def test_text_is_text_in_svg_and_a_page_gets_no_reference(column, tmp_path):
 def test_attachments_as_numbers():
     assert attachment_dict(PointMass(4.0, 5.0, offset=0.5)) == {
         "kind": "point mass", "x_m": 4.0, "mass_kg": 5.0, "rotary_inertia_kg_m2": 0.0,
-        "offset_m": 0.5,
+        "offset_m": 0.5, "polar_inertia_kg_m2": 0.0,
     }  # fmt: skip
     support = attachment_dict(Spring(3.0, math.inf, 7.0))
     assert support["kind"] == "support"

@@ -6,7 +6,9 @@ import math
 from typing import Any, NamedTuple
 
 from antinode.app.compute import Picture
+from antinode.app.quick import QUICK_FAMILY
 from antinode.app.state import View
+from antinode.beam.families import FamilyName
 from antinode.modes.result import Mode, error_of_root, hertz
 
 
@@ -38,16 +40,16 @@ def frequencies_data(picture: Picture, view: View) -> dict[str, Any]:
     }
 
 
-def frequency_rows(picture: Picture, family: str) -> list[Row]:
-    """Return the modes 1, 2, ... of a family; of the quick picture only bending ones."""
+def frequency_rows(picture: Picture, family: FamilyName) -> list[Row]:
+    """Return the modes 1, 2, ... of a family; of the quick picture only those of its family."""
     if picture.full is not None:
         modes = [mode for mode in picture.full.modes if mode.family == family and mode.number]
         return [_row(mode) for mode in modes[:12]]
-    if family != "bending":
+    if family != QUICK_FAMILY:
         return []
     quick = picture.quick
     values = zip(quick.omega2.tolist(), quick.error.tolist(), strict=True)
-    return [Row(f"bending {n}", w2, e, math.nan) for n, (w2, e) in enumerate(values, 1)]
+    return [Row(f"{family} {n}", w2, e, math.nan) for n, (w2, e) in enumerate(values, 1)]
 
 
 def _row(mode: Mode) -> Row:
@@ -87,6 +89,6 @@ def flag(frequency: float, view: View) -> str:
 
 def baseline_of(picture: Picture) -> tuple[tuple[str, float], ...]:
     """Return the frequencies of a picture, to be pinned."""
-    families = ("bending", "longitudinal") if picture.full else ("bending",)
+    families = picture.full.families if picture.full else (QUICK_FAMILY,)
     rows = [row for family in families for row in frequency_rows(picture, family)]
     return tuple((row.name, float(f"{hertz(row.omega2):.7g}")) for row in rows if row.omega2 >= 0)

@@ -8,18 +8,19 @@ import numpy as np
 
 from antinode.app.compute import Picture
 from antinode.app.display import shown_unit
+from antinode.app.quick import QUICK_FAMILY
 from antinode.app.state import View
-from antinode.modes.result import COMPONENTS
+from antinode.beam.families import FAMILIES, FamilyName
 
 from .numbers import pairs, thinned
 
 
 def modes_data(picture: Picture, view: View) -> dict[str, Any]:
     """Return the curves of the modes that the view asks for."""
-    family = view.family if picture.full else "bending"
+    family = view.family if picture.full else QUICK_FAMILY
     x, shapes, labels = _shapes(picture, view, family)
     factor = shown_unit("m", view.units).factor
-    names = COMPONENTS[family]
+    names = FAMILIES[family].quantities
     component = min(view.component, len(names) - 1)
     return {
         "unit": shown_unit("m", view.units).name,
@@ -39,17 +40,17 @@ def modes_data(picture: Picture, view: View) -> dict[str, Any]:
 
 
 def _shapes(
-    picture: Picture, view: View, family: str
+    picture: Picture, view: View, family: FamilyName
 ) -> tuple[np.ndarray, list[np.ndarray | None], list[str]]:
     """Return x, and of every mode asked for its states and a label; None where there is none."""
-    if family == "bending":
+    if family == QUICK_FAMILY:
         quick = picture.quick
         count = len(quick.omega2)
         shapes = [quick.states[:, n - 1] if n <= count else None for n in view.modes]
         labels = [_label(float(quick.omega2[n - 1])) if n <= count else "" for n in view.modes]
         return quick.x, shapes, labels
     assert picture.full is not None
-    found = {mode.number: mode for mode in picture.full.family("longitudinal")}
+    found = {mode.number: mode for mode in picture.full.family(family)}
     modes = [found.get(n) for n in view.modes]
     shapes = [None if mode is None else mode.states for mode in modes]
     return picture.full.x, shapes, ["" if m is None else _label(m.omega2) for m in modes]

@@ -20,6 +20,7 @@ from antinode import __version__
 from antinode.arrays import Array
 from antinode.beam.attachments import Joint, PointMass, Spring
 from antinode.beam.beam import Beam
+from antinode.beam.families import LONGITUDINAL
 from antinode.exchange.units import SI, System
 from antinode.modes.result import ModalResult, hertz
 
@@ -246,7 +247,7 @@ _END = {"free": "", "pinned": "2", "sliding": "6", "clamped": "26"}
 
 def _held_freedoms(beam: Beam) -> list[tuple[float, str]]:
     """Return what holds the modes: place and degrees of freedom, ends and supports."""
-    axial = ["1" if end == "fixed" else "" for end in beam.ends.of("longitudinal")]
+    axial = ["1" if end == "fixed" else "" for end in beam.ends.of(LONGITUDINAL)]
     held = [
         (float(beam.x[0]), axial[0] + _END[beam.ends.left]),
         (float(beam.x[-1]), axial[1] + _END[beam.ends.right]),

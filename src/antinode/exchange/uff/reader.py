@@ -21,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arrays import Array, Complex
+from antinode.beam.families import BENDING, LONGITUDINAL
 from antinode.errors import InputError
 from antinode.exchange.units import SI, System
 from antinode.extras import import_extra
@@ -207,13 +208,13 @@ def _shape(data: Row, geometry: Geometry) -> tuple[str, list[int], Array]:
     nodes = [int(n) for n in data["node_nums"]]
     size = [float(np.sum(part**2)) for part in parts]
     if not geometry.x:
-        return "bending", nodes, np.zeros(0)
+        return BENDING, nodes, np.zeros(0)
     across = 3 - geometry.axis - geometry.lateral
     if size[geometry.axis] > size[geometry.lateral] + size[across]:
-        return "longitudinal", nodes, parts[geometry.axis]
+        return LONGITUDINAL, nodes, parts[geometry.axis]
     if size[geometry.lateral] < size[across] or not size[geometry.lateral] > 0:
         return "", nodes, parts[across]
-    return "bending", nodes, parts[geometry.lateral]
+    return BENDING, nodes, parts[geometry.lateral]
 
 
 def _real(values: npt.NDArray[Any]) -> Array:
@@ -296,7 +297,7 @@ def _residue_shape(
 ) -> tuple[str, Row | None]:
     """Return the family of a mode and its shape, from the residues of one line of responses."""
     if not geometry.x:
-        return "bending", None
+        return BENDING, None
     moving, fixed = _roving(responses)
     common = Counter(_point(data, fixed) for data in responses).most_common(1)[0][0]
     chosen = [k for k, data in enumerate(responses) if _point(data, fixed) == common]
@@ -309,11 +310,11 @@ def _residue_shape(
     size = [sum(v * v for v in part.values()) for part in by_axis]
     across = 3 - geometry.axis - geometry.lateral
     if size[geometry.axis] > size[geometry.lateral] + size[across]:
-        family, part = "longitudinal", by_axis[geometry.axis]
+        family, part = LONGITUDINAL, by_axis[geometry.axis]
     elif size[across] > size[geometry.lateral]:
         return "", None
     else:
-        family, part = "bending", by_axis[geometry.lateral]
+        family, part = BENDING, by_axis[geometry.lateral]
     return family, _shape_row(family, list(part), np.array(list(part.values())), geometry)
 
 

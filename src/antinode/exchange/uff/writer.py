@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.families import FAMILIES
 from antinode.modes.result import ModalResult, Mode
 
 
@@ -78,13 +79,14 @@ def _mode(result: ModalResult, mode: Mode, number: int, kept: Array) -> Iterable
     yield _line(mode.name)
     yield _line(f"{mode.kind}, frequency {mode.frequency_hz:.9g} +- {mode.error_hz:.1e} Hz")
     yield _line(f"{mode.family} {mode.number} of {result.beam.name}")
-    yield _line("SI; 6 values: X, Y, 0, 0, 0, slope dY/dx")
+    yield _line("SI; 6 values: X, Y, 0, rotation about x, 0, slope dY/dx")
     yield "NONE"
     yield "".join(f"{value:10d}" for value in (1, 2, 3, 8, 2, 6))
     yield "".join(f"{value:10d}" for value in (2, 4, 1, number))
     yield "".join(f"{v:13.5E}" for v in (mode.frequency_hz, mode.modal_mass, 0.0, 0.0))
+    freedoms = FAMILIES[mode.family].freedoms
     for node, row in enumerate(mode.states[kept], 1):
-        Y, slope = (row[0], row[1]) if mode.family == "bending" else (0.0, 0.0)
-        X = 0.0 if mode.family == "bending" else row[0]
+        six = np.zeros(6)
+        six[list(freedoms)] = row[: len(freedoms)]
         yield f"{node:10d}"
-        yield "".join(f"{value:13.5E}" for value in (X, Y, 0.0, 0.0, 0.0, slope))
+        yield "".join(f"{value:13.5E}" for value in six)

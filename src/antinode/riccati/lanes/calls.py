@@ -15,14 +15,15 @@ import numpy.typing as npt
 from antinode.riccati import shapes
 from antinode.riccati.arrays import Array, Integers
 from antinode.riccati.chain import (
-    ZERO_COMPONENTS,
     Chain,
     Evaluation,
     largest_wave_number,
     omega2_scale,
+    point_steps,
     state_units,
 )
 from antinode.riccati.chain import evaluate as evaluate_readable
+from antinode.riccati.laws import BENDING, Squares
 from antinode.riccati.points import Point
 from antinode.riccati.roots import Eigenvalue
 from antinode.riccati.segment import LONGEST_STEP
@@ -39,7 +40,6 @@ _GUESSED = 1e-8  # relative width of brackets of the chain in the middle of a ba
 _NAMES = np.array(list(ENDS))
 _ENDS = {(left, right): np.array([ENDS[left], ENDS[right]]) for left in ENDS for right in ENDS}
 _NO_POINTS = np.empty(0, np.int64), np.empty((0, 8)), np.empty((0, 8))
-_ZERO = ZERO_COMPONENTS["bending"]
 
 
 def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
@@ -63,7 +63,7 @@ def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
 
 def _needs_frames(chain: Chain) -> bool:
     """Tell whether supports stand where the compiled chain does not know them."""
-    known = range(1, len(chain.length)) if chain.family == "bending" else ()
+    known = range(1, len(chain.length)) if chain.law is BENDING else ()
     return any(point.holds and point.node not in known for point in chain.points)
 
 
@@ -157,7 +157,8 @@ def solve_chains(
     if chains >= _MANY and len(length) == 1:
         with np.errstate(all="ignore"):
             middle = [np.mean(values, axis=0) for values in (mass, stiffness, force)]
-        weights = _weights(Chain(length[0], *middle, *_NAMES[ends]), below, roots, weights)
+        chain = Chain(BENDING, length[0], BENDING.named(*middle), *_NAMES[ends])
+        weights = _weights(chain, below, roots, weights)
     table, work, row = np.empty((lanes.ROWS, n + n // 2 + 8)), _scratch.work(n, roots), 0
     while row < chains:
         row, columns = lanes.solve_rows(
@@ -326,7 +327,7 @@ class SingleChain:
     """
 
     def __init__(self, chain: Chain) -> None:
-        bar = chain.family == "longitudinal"
+        bar = chain.law is not BENDING
         own = np.empty((4, len(chain.length)))
         own[0], own[1], own[2] = chain.length, chain.mass, chain.stiffness
         own[3] = 0.0 if bar else chain.axial_force
@@ -502,7 +503,7 @@ def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
 
 def _is_special(chain: Chain, multiplicity: Integers) -> bool:
     held = any(point.holds for point in chain.points)
-    return chain.family != "bending" or held or bool(np.any(multiplicity > 1))
+    return chain.law is not BENDING or held or bool(np.any(multiplicity > 1))
 
 
 class _LaneChain:
@@ -534,7 +535,7 @@ def _states(fine: Chain, omega2: Array) -> Array:
     own = _LaneChain(fine, omega2)
     n, number = len(fine.length), len(omega2)
     frames, backs = np.empty((2, n + 1, 8, LANES)), np.empty((2, n + 1, 3, LANES))
-    free = [i for end in (fine.left, fine.right) for i in range(4) if i not in _ZERO[end]]
+    free = [i for end in (fine.left, fine.right) for i in range(4) if i not in fine.law.zeros(end)]
     lane_shapes.sweeps(
         *(own.transfers(), *_lane_points(fine, omega2, own.units)),
         *(np.array(free).reshape(2, 2), own.scratch, *frames, *backs),
@@ -552,7 +553,7 @@ def _lane_points(chain: Chain, omega2: Array, units: Array) -> tuple[Integers, A
     lane = np.minimum(np.arange(LANES), len(omega2) - 1)
     for k, point in enumerate(chain.points):
         marks[point.node] = k
-        for kind, T in point.steps(4, omega2[lane], units):
+        for kind, T, _ in point_steps(chain.law, point, omega2[lane], units):
             if kind == "load":
                 table[k, :4] = T[:, 3, 0], T[:, 3, 1], T[:, 2, 0], T[:, 2, 1]
                 table[k, 3] = T[:, 2, 1]
@@ -564,7 +565,7 @@ def _lane_points(chain: Chain, omega2: Array, units: Array) -> tuple[Integers, A
 def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies:
     """Return modal mass and stiffness of modes: `riccati.shapes.mode_energies`, compiled."""
     phase = float(np.max(largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length))
-    if chain.family != "bending" or phase > LONGEST_STEP:
+    if chain.law is not BENDING or phase > LONGEST_STEP:
         return shapes.mode_energies(chain, states, omega2)
     share, weight = shapes.gauss_rule(phase)
     parts = []
@@ -577,7 +578,7 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies
             *(these, share, weight, own.scratch, total),
         )
         parts.append(total)
-    return shapes.energies(chain, states, shapes.Squares(*np.concatenate(parts, axis=2)))
+    return shapes.energies(chain, states, Squares(*np.concatenate(parts, axis=2)))
 
 
 def compiled_here() -> bool:

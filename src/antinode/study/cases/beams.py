@@ -9,6 +9,7 @@ import numpy as np
 
 from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING
 from antinode.beam.limits import check_limits
 from antinode.errors import AntinodeError
 from antinode.study.design.file import LOAD_OUTPUTS
@@ -75,12 +76,12 @@ def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
         beams[i] = beam
         for name in LOAD_OUTPUTS:
             scalars[name][i] = _scalar(case, name)
-    exact = not any(np.any(b.varies("bending")) for b in beams.values())
+    exact = not any(np.any(b.varies(BENDING)) for b in beams.values())
     return CaseBeams(reason, scalars, exact, lambda rows, fine: _chains_of(beams, rows, fine))
 
 
 def _chains_of(beams: Mapping[int, Beam], rows: Integers, refinement: int) -> list[Chains]:
-    chains = {i: beams[i].chain("bending", refinement) for i in rows.tolist()}
+    chains = {i: beams[i].chain(BENDING, refinement) for i in rows.tolist()}
     found = []
     for size in sorted({len(chain.length) for chain in chains.values()}):
         own = {i: chain for i, chain in chains.items() if len(chain.length) == size}

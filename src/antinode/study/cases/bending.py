@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from antinode.arrays import Array, Integers
+from antinode.beam.families import BENDING, FAMILIES
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import CountingError, find_eigenvalues
@@ -21,6 +22,8 @@ from antinode.vehicle.many_beams import Chains
 from .beams import CaseBeams
 from .reasons import PAST_BUCKLING, failed
 
+IN_BATCHES = (BENDING,)
+"""Families whose cases are solved together."""
 _SAMPLE = 32
 _SAFETY = 2.5
 _NEAR_BUCKLING = 1e-7  # share of the highest omega^2 below which the first may be a rigid one
@@ -124,7 +127,9 @@ def solve_free(chains: Chains, modes: int) -> tuple[Array, Array, Integers]:
 
 def _chain(chains: Chains, i: int) -> Chain:
     tables = (chains.length, chains.mass, chains.stiffness, chains.axial_force)
-    return Chain(*(table[i if len(table) > 1 else 0] for table in tables))
+    length, *columns = (table[i if len(table) > 1 else 0] for table in tables)
+    law = FAMILIES[BENDING].law
+    return Chain(law, length, law.named(*columns))
 
 
 def _by_frames(chain: Chain, modes: int) -> tuple[Array, Array] | None:

@@ -18,9 +18,9 @@ from antinode.study.design.file import Study
 from antinode.study.design.points import Points
 from antinode.vehicle.many_loads import OUT_OF_RANGE
 
+from .alone import solve_alone
 from .beams import CaseBeams, beams_of
-from .bending import Eigenvalues, solve_bending
-from .longitudinal import solve_longitudinal
+from .bending import IN_BATCHES, Eigenvalues, solve_bending
 from .reasons import failed
 from .values import Cases
 
@@ -55,10 +55,10 @@ def _every_family(cases: Cases, beams: CaseBeams, points: int) -> Eigenvalues:
     """Return the eigenvalues of all families side by side; NaN in cases that failed."""
     families: list[Eigenvalues] = []
     for family in cases.study.solve.families:
-        if family == "bending":
+        if family in IN_BATCHES:
             families.append(solve_bending(cases.study, beams, points))
         else:
-            families.append(solve_longitudinal(cases, beams, points))
+            families.append(solve_alone(cases, beams, points, family))
     reason = np.max([f.reason for f in families], axis=0)
     omega2, error, shapes = (
         np.concatenate([getattr(f, name) for f in families], axis=1)

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
+from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_beside_case, read_cells
@@ -155,8 +156,8 @@ class StudySolve(Frozen):
     tolerance: Annotated[Number, Field(ge=1e-11, le=0.1)] = Field(
         default=1e-6, description="relative error of a frequency by what varies inside segments"
     )
-    families: tuple[Literal["bending", "longitudinal"], ...] = Field(
-        default=("bending",), min_length=1, max_length=2, description="families of modes"
+    families: tuple[FamilyName, ...] = Field(
+        default=(BENDING,), min_length=1, max_length=2, description="families of modes"
     )
 
 

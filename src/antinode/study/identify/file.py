@@ -15,6 +15,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, create_model, model_validator
 
+from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_beside_case
@@ -43,9 +44,7 @@ Frequency = Annotated[
 class ShapeRow(Frozen):
     """An observed shape, which finds the mode that its frequency belongs to."""
 
-    family: Literal["bending", "longitudinal"] = Field(
-        default="bending", description="family of the mode"
-    )
+    family: FamilyName = Field(default=BENDING, description="family of the mode")
     number: int = Field(
         ge=1, le=500, strict=True, description="place of its frequency in the row, from 1"
     )

@@ -13,8 +13,8 @@ from functools import cached_property
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.families import FamilyName
 from antinode.errors import AntinodeError
-from antinode.riccati.chain import Family
 from antinode.study.eigenvalues import CaseEigenvalues, eigenvalues_of, hertz, hertz_slope
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import Sensitivity
@@ -39,9 +39,9 @@ class Evaluation:
 
     vector: Array
     solved: tuple[CaseEigenvalues, ...]
-    pairings: tuple[Mapping[Family, Pairing], ...]
+    pairings: tuple[Mapping[FamilyName, Pairing], ...]
 
-    def fitted_hz(self, row: int, family: Family) -> Array:
+    def fitted_hz(self, row: int, family: FamilyName) -> Array:
         """Return the frequencies that stand against the observed ones [Hz]."""
         omega2 = self.solved[row].modes[family].omega2
         return hertz(omega2[self.pairings[row][family].index])
@@ -130,7 +130,7 @@ class RowDerivative:
         """The case of the row."""
         return self.solved.case
 
-    def by_vector(self, family: Family) -> Array:
+    def by_vector(self, family: FamilyName) -> Array:
         """Return the derivatives of omega^2 1 ... n of a family, shape (n, entries)."""
         sensitivity = self.solved.sensitivity(family)
         total = np.zeros((len(self.solved.modes[family].omega2), len(self.unknowns.items)))

@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from antinode.beam.families import BENDING, LONGITUDINAL
 from antinode.errors import InputError
 from antinode.inputs.reading import Row, read_cells
 from antinode.text import short
 
-FAMILIES = ("bending", "longitudinal")
+FAMILIES = (BENDING, LONGITUDINAL)
 _TEXTS = ("name", "mass_state")
 _MOST = 500
 

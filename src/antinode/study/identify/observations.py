@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from antinode.arrays import Array, Integers
+from antinode.beam.families import BENDING, LONGITUDINAL, FamilyName
 from antinode.errors import AntinodeError, InputError
 from antinode.inputs.explain import validate
-from antinode.riccati.chain import Family
 from antinode.text import nearest
 from antinode.vehicle.case import Case
 from antinode.vehicle.condition import OperatingCondition
@@ -25,7 +25,7 @@ from antinode.vehicle.paths import replaced
 
 from .file import Fit, IdentificationProblem, RowBase, ShapeRow
 
-FAMILIES: tuple[Family, ...] = ("bending", "longitudinal")
+FAMILIES: tuple[FamilyName, ...] = (BENDING, LONGITUDINAL)
 RELATIVE_SD = 1e-3
 """Taken to weigh frequencies where no standard deviation is given; the noise is then estimated."""
 _FURTHER = 2  # modes above the highest observed one among which a shape may be found
@@ -71,10 +71,10 @@ class RowData:
 
     label: str
     settings: Mapping[str, float]
-    families: Mapping[Family, FamilyData]
+    families: Mapping[FamilyName, FamilyData]
 
     @property
-    def wanted(self) -> dict[Family, int]:
+    def wanted(self) -> dict[FamilyName, int]:
         """How many modes of each family must be computed."""
         return {family: data.wanted for family, data in self.families.items()}
 
@@ -116,7 +116,7 @@ def _row(problem: IdentificationProblem, row: RowBase, number: int) -> RowData:
     settings = row.settings() | _mass_state(problem.case, row, where)
     tables = problem.case.condition.model_dump() | settings
     validate(OperatingCondition, tables, where)
-    families: dict[Family, FamilyData] = {}
+    families: dict[FamilyName, FamilyData] = {}
     for family in FAMILIES:
         found = _family(row, family, problem.fit, where)
         if found is not None:
@@ -139,7 +139,7 @@ def _mass_state(case: Case, row: RowBase, where: str) -> dict[str, float]:
     return {"burn_fraction": states.index(row.mass_state) / max(len(states) - 1, 1)}
 
 
-def _family(row: RowBase, family: Family, fit: Fit, where: str) -> FamilyData | None:
+def _family(row: RowBase, family: FamilyName, fit: Fit, where: str) -> FamilyData | None:
     given: Sequence[float | None] = getattr(row, family)
     numbers = [k for k, hz in enumerate(given, 1) if hz is not None]
     shapes = {}

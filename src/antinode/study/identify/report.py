@@ -11,6 +11,7 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
+from antinode.beam.families import BENDING
 from antinode.show.printing import new_table, show_warnings
 
 from .result import Estimate, Identification
@@ -51,7 +52,7 @@ def _rows_table(result: Identification) -> Table:
     table = new_table("row", "observed [Hz]", *(f"{k}" for k in range(1, shown + 1)), "worst")
     for (_, family), group in groupby(result.comparisons, key=lambda c: (c.row, c.family)):
         entries = list(group)
-        label = entries[0].label + ("" if family == "bending" else f" ({family})")
+        label = entries[0].label + ("" if family == BENDING else f" ({family})")
         by_number = {c.number: c for c in entries}
         cells = [
             f"{1e3 * by_number[k].relative:+.3f}" if k in by_number else ""

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from antinode.beam.families import FamilyName
 from antinode.errors import InputError
-from antinode.riccati.chain import Family
 from antinode.vehicle.case import Case
 
 from .estimates import Estimates
@@ -44,7 +44,7 @@ class Comparison:
 
     row: int
     label: str
-    family: Family
+    family: FamilyName
     number: int
     paired: int
     observed_hz: float

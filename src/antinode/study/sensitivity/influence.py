@@ -19,6 +19,7 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.attachments import Joint, PointMass, Spring
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING
 from antinode.beam.file import BeamFile
 from antinode.errors import AntinodeError
 from antinode.modes.result import ModalResult
@@ -56,8 +57,8 @@ class Influence(NamedTuple):
 
 def case_influences(case: Case, result: ModalResult, most: int) -> list[Influence]:
     """Return what moves the bending modes 1 ... n of a vehicle, solved before."""
-    omega2 = [mode.omega2 for mode in result.family("bending") if mode.number][:most]
-    modes = Modes(result.solutions["bending"].chain, np.array(omega2))
+    omega2 = [mode.omega2 for mode in result.family(BENDING) if mode.number][:most]
+    modes = Modes(result.solutions[BENDING].chain, np.array(omega2))
     sensitivity = Sensitivity(modes, result.beam, case.loads)
     return [*_of_condition(case, sensitivity), *_of_body(case, sensitivity)]
 
@@ -127,8 +128,8 @@ def beam_influences(file: BeamFile, modes: int, tolerance: float) -> list[Influe
 
 
 def _omega2(beam: Beam, modes: int, tolerance: float) -> Array:
-    result = solve_modes(beam, modes, tolerance=tolerance, families=["bending"])
-    return np.array([result.mode("bending", k).omega2 for k in range(1, modes + 1)])
+    result = solve_modes(beam, modes, tolerance=tolerance, families=[BENDING])
+    return np.array([result.mode(BENDING, k).omega2 for k in range(1, modes + 1)])
 
 
 def _scalings(file: BeamFile) -> Iterator[tuple[str, Scaled]]:

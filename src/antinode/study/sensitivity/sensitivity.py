@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.families import FamilyName
 from antinode.errors import AntinodeError, ComputationError, InputError
-from antinode.riccati.chain import Family
 from antinode.study.cases.chunks import mode_names
 from antinode.study.cases.reasons import failed
 from antinode.study.design.file import Study
@@ -202,7 +202,7 @@ def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]
 
     The derivatives come from the mode shapes, and from the loads by the chain rule.
     """
-    wanted: dict[Family, int] = dict.fromkeys(study.solve.families, study.solve.modes)
+    wanted: dict[FamilyName, int] = dict.fromkeys(study.solve.families, study.solve.modes)
     found: dict[str, tuple[float, Array]] = {}
     try:
         refinement = sufficient_refinement(study.case, wanted, 1e-9)

@@ -1,0 +1,101 @@
+"""Frames: bases of the states that one end of a chain admits, as arrays (..., s, d).
+
+A frame's first d rows are displacements, its last d rows the forces that go with them, in reverse
+order: component i meets component s - 1 - i.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .arrays import Array
+
+
+def orthonormalise(F: Array) -> tuple[Array, Array]:
+    """Return Q and upper triangular R with positive diagonal, ``F = Q R``, for one or two columns.
+
+    Parameters
+    ----------
+    F : array, shape (..., s, d)
+    """
+    Q, R = np.empty_like(F), np.zeros((*F.shape[:-2], F.shape[-1], F.shape[-1]))
+    for j in range(F.shape[-1]):
+        column = F[..., j]
+        for i in range(j):
+            R[..., i, j] = np.einsum("...s,...s->...", Q[..., i], column)
+            column = column - R[..., i, j, None] * Q[..., i]
+        R[..., j, j] = np.sqrt(np.einsum("...s,...s->...", column, column))
+        Q[..., j] = column / R[..., j, j, None]
+    return Q, R
+
+
+def inverse_upper(R: Array) -> Array:
+    """Return the inverse of upper triangular 1x1 or 2x2 matrices."""
+    inverse = np.zeros_like(R)
+    for j in range(R.shape[-1]):
+        inverse[..., j, j] = 1.0 / R[..., j, j]
+    if R.shape[-1] == 2:
+        inverse[..., 0, 1] = -R[..., 0, 1] * inverse[..., 0, 0] * inverse[..., 1, 1]
+    return inverse
+
+
+def determinant(C: Array) -> Array:
+    """Return the determinant of 1x1 or 2x2 matrices, shape (...,)."""
+    if C.shape[-1] == 1:
+        return C[..., 0, 0]
+    return C[..., 0, 0] * C[..., 1, 1] - C[..., 0, 1] * C[..., 1, 0]
+
+
+def minor(F: Array, rows: list[int]) -> Array:
+    """Return the determinant of the given rows of the frames, shape (...,)."""
+    return determinant(F[..., rows, :])
+
+
+def hold(F: Array, rows: tuple[int, ...]) -> tuple[Array, Array, Array]:
+    """Pass a frame through a support that holds displacements at zero.
+
+    Parameters
+    ----------
+    F : array, shape (k, s, d)
+        Frame on the left.
+    rows : tuple of int
+        Which displacements are held.
+
+    Returns
+    -------
+    F : array, shape (k, s, d)
+        Frame on the right: the states that obey the support, with the reactions free.
+    back : array, shape (k, d, d)
+        Coefficients on the left are these times those on the right.
+    factor : array, shape (k,)
+        What the part on the left adds to the characteristic function where it is cut off.
+    """
+    lanes, size, d = F.shape
+    new, back = np.zeros_like(F), np.zeros((lanes, d, d))
+    if len(rows) == d:  # everything held: what follows knows nothing of what came before
+        new[:, d:] = np.eye(d)
+        return new, back, np.linalg.det(F[:, :d])
+    row, force = rows[0], size - 1 - rows[0]
+    a = np.stack([F[:, row, 1], -F[:, row, 0]], axis=-1)
+    a = np.where(np.any(a, axis=-1, keepdims=True), a, np.array([1.0, 0.0]))
+    state = np.einsum("ksd,kd->ks", F, a)
+    state[:, [row, force]] = 0.0
+    length = np.linalg.norm(state, axis=-1, keepdims=True)
+    length = np.where(length > 0, length, 1.0)
+    new[:, :, 0], new[:, force, 1] = state / length, 1.0
+    back[:, :, 0] = a / length
+    return new, back, np.ones(lanes)
+
+
+def displacement_sign(F: Array, behind: float) -> Array:
+    """Return what changes its sign where a state of the frame has no displacement.
+
+    That is det A; at a node that is held, the one free displacement, or the sign that A takes just
+    `behind` it. Both neighbours of a node use the same number, so that its rounding cannot spoil
+    the sum of their counts.
+    """
+    d = F.shape[-1]
+    A = F[..., :d, :]
+    of_all = determinant(A)
+    free = np.sum(A[..., 0], axis=-1)
+    return np.where(of_all != 0.0, of_all, np.where(free != 0.0, free, behind))
