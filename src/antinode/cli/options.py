@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
+from antinode.exchange.units import SystemName
+
 if TYPE_CHECKING:
     from antinode.exchange.inputs import Choices
 
@@ -169,9 +171,21 @@ class Exchange:
         ),
     ] = None
     units: Annotated[
-        Literal["SI", "mm-t-s"],
-        option(INPUT, "Units of NASTRAN and UFF files that do not say them."),
+        SystemName,
+        option(
+            INPUT,
+            "Units of NASTRAN and UFF files that do not say them: SI; mm-t-s (N, MPa); mm-kg-ms "
+            "(kN, GPa); in-lbf-s (mass in lbf s^2/inch); ft-lbf-s (slug).",
+        ),
     ] = "SI"
+    elements: Annotated[
+        str,
+        option(
+            INPUT,
+            "Elements of a larger NASTRAN model that make up the beam: 100:140, or 7,12,100:140.",
+            show_default=False,
+        ),
+    ] = ""
     plane: Annotated[
         int,
         whole(
@@ -188,7 +202,7 @@ class Exchange:
     def choices(self, assignments: tuple[str, ...]) -> Choices:
         """Return them as the readers want them."""
         from antinode.errors import InputError
-        from antinode.exchange.inputs import Choices
+        from antinode.exchange.inputs import Choices, elements_of
         from antinode.exchange.units import SYSTEMS
         from antinode.inputs.units import to_si
 
@@ -201,4 +215,5 @@ class Exchange:
             raise InputError(f"--length {given!r}: {error}; write e.g. 87.6m") from error
         if length is not None and not 0 < length < 1e9:
             raise InputError(f"--length is {length:g} m; it must be positive and below 1e9 m")
-        return Choices(assignments, SYSTEMS[self.units], self.plane, length)
+        elements = elements_of(self.elements)
+        return Choices(assignments, SYSTEMS[self.units], self.plane, length, elements)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -14,6 +15,7 @@ from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.override import override
 from antinode.inputs.reading import naming, read_toml
+from antinode.text import short
 
 from .formats import Format
 from .station_csv import read_station_csv, without_hull
@@ -37,12 +39,39 @@ class Choices:
         In which the beam bends, where a file has two.
     length : float or None
         [m], where stations are fractions of it.
+    elements : tuple of range
+        Of a larger model that make up the beam; empty for all.
     """
 
     assignments: tuple[str, ...] = ()
     system: System = SI
     plane: int = 1
     length: float | None = None
+    elements: tuple[range, ...] = ()
+
+
+def elements_of(text: str) -> tuple[range, ...]:
+    """Return the numbers that a list such as ``"7,100:140"`` names, both ends among them.
+
+    Raises
+    ------
+    InputError
+        If it is no such list.
+    """
+    found = []
+    for part in text.split(",") if text.strip() else ():
+        ends = [end.strip() for end in part.split(":")]
+        if not (1 <= len(ends) <= 2 and all(re.fullmatch(r"\d{1,18}", end) for end in ends)):
+            raise InputError(
+                f"--elements {short(text)}: {short(part)} is no number or range; write e.g. 100:140"
+            )
+        first, last = int(ends[0]), int(ends[-1])
+        if last < first:
+            raise InputError(
+                f"--elements {short(text)}: {short(part)} runs backwards; turn it round"
+            )
+        found.append(range(first, last + 1))
+    return tuple(found)
 
 
 @dataclass(frozen=True)
@@ -118,7 +147,7 @@ def _from_toml(path: Path, assignments: Iterable[str]) -> Found:
 def _from_nastran(path: Path, choices: Choices) -> Found:
     from .nastran.reader import read_nastran
 
-    beam, notes = read_nastran(path, choices.system, choices.plane)
+    beam, notes = read_nastran(path, choices.system, choices.plane, choices.elements)
     if choices.assignments:
         from .beam_toml import beam_tables
 

@@ -1,4 +1,9 @@
-"""Masses, springs and joints of a deck, and what its supports hold, in units of the file."""
+"""Masses, springs and joints of a deck, and what its supports hold, in units of the file.
+
+A grid beside the beam's axis moves with it by a rigid arm `r`: a mass there counts with its centre,
+which must lie on the axis; a support must not turn the arm into a lever between axial and lateral
+motion, so it holds sideways alone, or all.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +17,10 @@ from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
 from antinode.beam.ends import AxialEnd, End, Ends
 from antinode.errors import InputError
 
-from .cards import Card, Subcase
+from .cards import Card
+from .deck import Subcase
 from .line import SAME, Line, left_end, linked, right_end
-from .model import Model
+from .model import Elastic, Model
 
 _ENDS: dict[tuple[bool, bool], End] = {
     (True, True): "clamped",
@@ -22,14 +28,16 @@ _ENDS: dict[tuple[bool, bool], End] = {
     (False, True): "sliding",
     (False, False): "free",
 }
+_FREEDOMS = ("axial", "lateral", "rotational")
 
 
 def attachments_of(
     model: Model, line: Line, modal: Subcase | None
 ) -> tuple[list[Attachment], dict[int, set[str]]]:
     """Return masses, springs and joints, and what the supports of the modes hold at each node."""
-    items: list[Attachment] = [_point_mass(model, line, card) for card in model.masses]
-    items += [spring_of(line, card) for card in model.springs if not is_joint(line, card)]
+    here = [card for card in model.masses if _is_here(model, line, card.integer(2), card)]
+    items: list[Attachment] = [_point_mass(model, line, card) for card in here]
+    items += springs_of(model, line)
     items += joints_of(model, line)
     sets = {number for number, *_ in model.supports}
     if modal is None and len(sets) > 1:
@@ -44,26 +52,70 @@ def attachments_of(
 
 def held_by(model: Model, line: Line, chosen: int | None) -> dict[int, set[str]]:
     """Return which of axial, lateral and rotational are held at each node."""
+    sets = set() if chosen is None else model.chosen_supports(chosen)
     given = [(g, grid.held, grid.card) for g, grid in model.grids.items() if grid.held]
-    given += [(g, freedoms, card) for n, g, freedoms, card in model.supports if n == chosen]
-    held: dict[int, set[str]] = {}
+    given += [(g, freedoms, card) for n, g, freedoms, card in model.supports if n in sets]
+    by_grid: dict[int, tuple[set[str], Card]] = {}
     for grid, freedoms, card in given:
-        if grid not in line.node:
+        held, _ = by_grid.setdefault(grid, (set(), card))
+        held.update(freedoms)
+    found: dict[int, set[str]] = {}
+    for grid, (freedoms_held, card) in by_grid.items():
+        if (seat := _seat(model, line, grid)) is None:
             continue
-        if set("123456") <= set(freedoms):
-            names = {"axial", "lateral", "rotational"}
-        else:
-            own = zip(("axial", "lateral", "rotational"), line.freedoms(card), strict=True)
-            names = {name for name, freedom in own if str(freedom) in freedoms}
+        names = _names(line, grid, freedoms_held, card)
         if names:
             _check_side(line, grid, card)
-            held.setdefault(line.node[grid], set()).update(names)
-    return held
+            _check_arm(seat[1], names, card, all_held=set("123456") <= freedoms_held)
+            found.setdefault(seat[0], set()).update(names)
+    return found
+
+
+def _names(line: Line, grid: int, freedoms: set[str], card: Card) -> set[str]:
+    """Return which of axial, lateral and rotational freedoms at a grid are."""
+    if set("123456") <= freedoms:
+        return set(_FREEDOMS)
+    own = zip(_FREEDOMS, line.freedoms(grid, card), strict=True)
+    return {name for name, freedom in own if str(freedom) in freedoms}
+
+
+def _seat(model: Model, line: Line, grid: int) -> tuple[int, Array] | None:
+    """Return the node that a grid moves with as a rigid body, and the arm to the grid."""
+    if grid in line.node:
+        return line.node[grid], line.arms[grid]
+    for link in model.links:
+        if grid in link.grids and link.to in line.node and set("123456") <= set(link.freedoms):
+            away = line.frame @ (model.grids[grid].at - model.grids[link.to].at)
+            return line.node[link.to], np.asarray(line.arms[link.to] + away)
+    return None
+
+
+def _is_here(model: Model, line: Line, grid: int, card: Card) -> bool:
+    """Tell whether a card stands on the beam; of a larger model others are left out."""
+    if _seat(model, line, grid) is not None:
+        return True
+    if model.wanted:
+        model.passed[card.name] += 1
+        return False
+    raise card.error(f"grid {grid} is no grid of the beam's elements, nor tied to one")
 
 
 def _check_side(line: Line, grid: int, card: Card) -> None:
     if grid in line.right_grids:
         raise card.error(f"grid {grid} is the right side of a joint; attach it to the left side")
+
+
+def _check_arm(arm: Array, names: set[str], card: Card, *, all_held: bool = False) -> None:
+    """Refuse what holds a grid beside the axis so that an arm becomes a lever."""
+    size = max(float(np.max(np.abs(arm))), 1e-300)
+    along, beside, normal = (abs(float(v)) > 1e-9 * size for v in arm)
+    if size <= 1e-12 or all_held or (names == set(_FREEDOMS) and not normal):
+        return
+    if along or normal or (beside and "axial" in names):
+        raise card.error(
+            "its grid stands beside the axis of the beam, whose axial motion it would couple to "
+            "bending; hold all freedoms, or move the grid onto the axis"
+        )
 
 
 def ends_of(held: dict[int, set[str]], last: int) -> Ends:
@@ -88,58 +140,79 @@ def inner_supports(held: dict[int, set[str]], x: Array) -> list[Spring]:
     ]
 
 
-_FREEDOMS = ("axial", "lateral", "rotational")
-
-
-def _node(line: Line, grid: int, card: Card) -> int:
-    if grid not in line.node:
-        raise card.error(f"grid {grid} is no grid of the beam's elements")
+def place_of(model: Model, line: Line, grid: int, card: Card) -> tuple[float, Array]:
+    """Return x of what a card attaches to a grid, and the arm to the grid."""
+    seat = _seat(model, line, grid)
+    if seat is None:
+        raise card.error(f"grid {grid} is no grid of the beam's elements, nor tied to one")
     _check_side(line, grid, card)
-    return line.node[grid]
+    return float(line.x[seat[0]]), seat[1]
 
 
 def _point_mass(model: Model, line: Line, card: Card) -> PointMass:
-    if card.text(3) not in ("", "0"):
-        raise card.error("a coordinate system in field 3 cannot be read")
-    offset = np.array([card.real(i, 0.0) for i in (5, 6, 7)])
-    axis, _, normal = line.frame
-    along = float(offset @ axis)
-    if np.linalg.norm(offset - along * axis) > SAME * float(np.ptp(line.x)):
+    grid = card.integer(2)
+    x, arm = place_of(model, line, grid, card)
+    axes, offset = _mass_frame(model, grid, card)
+    centre = arm + line.frame @ offset
+    if np.linalg.norm(centre[1:]) > SAME * float(np.ptp(line.x)):
         raise card.error("its centre is off the axis of the beam; only an offset along it is read")
     I = [card.real(i, 0.0) for i in range(9, 15)]  # noqa: E741
     tensor = np.array([[I[0], -I[1], -I[3]], [-I[1], I[2], -I[4]], [-I[3], -I[4], I[5]]])
+    normal = axes @ line.frame[2]
     mass, factor = card.real(4), model.mass_factor
     if not mass > 0:
         raise card.error(f"field 4 is {mass:g}; a mass must be positive")
-    at = float(line.x[_node(line, card.integer(2), card)])
-    return PointMass(at, mass * factor, float(normal @ tensor @ normal) * factor, along)
+    inertia = float(normal @ tensor @ normal) * factor
+    if inertia < 0:
+        raise card.error(f"its moment of inertia is {inertia:g}; it must not be negative")
+    return PointMass(x, mass * factor, inertia, float(centre[0]))
 
 
-def _sides(card: Card) -> list[tuple[int, int]]:
-    """Return grid and freedom of the ends of a CELAS2 that are not to the ground."""
-    pairs = [(card.integer(3, 0), card.integer(4, 0)), (card.integer(5, 0), card.integer(6, 0))]
-    return [(grid, freedom) for grid, freedom in pairs if grid]
+def _mass_frame(model: Model, grid: int, card: Card) -> tuple[Array, Array]:
+    """Return the axes of a mass's inertia as rows, and the offset of its centre, basic."""
+    given = np.array([card.real(i, 0.0) for i in (5, 6, 7)])
+    at = model.grid(grid, card).at
+    if card.text(3) == "-1":
+        return np.eye(3), given - at
+    number = card.integer(3, 0)
+    axes = model.systems.directions(number, at, card) if number else model.grids[grid].axes
+    return axes, np.asarray(given @ axes)
 
 
-def is_joint(line: Line, card: Card) -> bool:
+def is_joint(line: Line, spring: Elastic) -> bool:
     """Tell whether a spring joins the two sides of a joint."""
-    ends = _sides(card)
-    return len(ends) == 2 and any(grid in line.right_grids for grid, _ in ends)
+    return len(spring.ends) == 2 and any(grid in line.right_grids for grid, _ in spring.ends)
 
 
-def spring_of(line: Line, card: Card) -> Spring:
-    """Return a spring to the ground."""
-    ends, k = _sides(card), card.real(2)
-    if len(ends) != 1:
+def springs_of(model: Model, line: Line) -> list[Spring]:
+    """Return the springs to the ground."""
+    found = []
+    for spring in model.springs:
+        if is_joint(line, spring):
+            continue
+        if model.wanted and not all(grid in line.node for grid, _ in spring.ends):
+            model.passed[spring.card.name] += 1
+            continue
+        if (read := _spring(model, line, spring)) is not None:
+            found.append(read)
+    return found
+
+
+def _spring(model: Model, line: Line, spring: Elastic) -> Spring | None:
+    """Return a spring to the ground; None for one out of the plane of bending."""
+    card = spring.card
+    if len(spring.ends) != 1:
         raise card.error("it must join one grid to the ground, or the two sides of a joint")
-    if not k > 0:
-        raise card.error(f"field 2 is {k:g}; a stiffness must be positive")
-    ((grid, freedom),) = ends
-    axial, lateral, rotational = line.freedoms(card)
-    x = float(line.x[_node(line, grid, card)])
-    if freedom not in (axial, lateral, rotational):
-        raise card.error(f"freedom {freedom} is none of the plane of bending; remove it")
-    return Spring(x, k * (freedom == lateral), k * (freedom == rotational), k * (freedom == axial))
+    ((grid, freedom),) = spring.ends
+    if not spring.k > 0:
+        raise card.error(f"its stiffness is {spring.k:g}; a stiffness must be positive")
+    x, arm = place_of(model, line, grid, card)
+    own = dict(zip(line.freedoms(grid, card), _FREEDOMS, strict=True))
+    if freedom not in own:
+        return None
+    name, k = own[freedom], spring.k
+    _check_arm(arm, {name}, card)
+    return Spring(x, k * (name == "lateral"), k * (name == "rotational"), k * (name == "axial"))
 
 
 def joints_of(model: Model, line: Line) -> list[Joint]:
@@ -150,7 +223,7 @@ def joints_of(model: Model, line: Line) -> list[Joint]:
         if left == right:
             continue
         rigid = linked(model, left, right) + linked(model, right, left)
-        axial, lateral, rotational = line.freedoms(b.card)
+        axial, lateral, rotational = line.freedoms(right, b.card)
         if str(lateral) not in rigid:
             raise b.card.error(f"grids {left} and {right} are not linked in freedom {lateral}")
         found.append(
@@ -169,9 +242,9 @@ def _compliance(
     if str(freedom) in rigid:
         return 0.0
     k = sum(
-        spring.real(2)
+        spring.k
         for spring in model.springs
-        if is_joint(line, spring) and {(g, freedom) for g in grids} == set(_sides(spring))
+        if is_joint(line, spring) and {(g, freedom) for g in grids} == set(spring.ends)
     )
     if not k > 0:
         raise card.error(f"grids {grids[0]} and {grids[1]} are not joined in freedom {freedom}")

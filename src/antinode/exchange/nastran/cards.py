@@ -1,23 +1,19 @@
-"""NASTRAN's bulk data as cards: small, large and free field, continuations, its own reals.
+"""NASTRAN's cards: fields as numbers and words, its own reals, and cards as text.
 
-A line is ten fields of 8 characters, or name, four fields of 16 and continuation where the name
-ends in `*`, or fields between commas. A real may leave out its E: `7.0-3` is 0.007.
+A real may leave out its E: `7.0-3` is 0.007.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from antinode.errors import InputError
-from antinode.inputs.reading import read_bytes
 from antinode.text import short
 
-MOST_BYTES = 20_000_000
 _REAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[EeDd]?([+-]?\d+))?$")
-_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]{0,7}\*?$")
 
 
 @dataclass(frozen=True)
@@ -60,9 +56,22 @@ class Card:
         text = self.text(number)
         if not text and default is not None:
             return default
-        if not re.fullmatch(r"[+-]?\d{1,9}", text):
+        if not re.fullmatch(r"[+-]?\d{1,18}", text):
             raise self.error(f"field {number} is {short(text)}; a whole number must stand there")
         return int(text)
+
+    def freedoms(self, number: int) -> str:
+        """Return the freedoms 1 to 6 that a field names; 0 and blanks among them count nothing.
+
+        Raises
+        ------
+        InputError
+            If it names anything else.
+        """
+        text = "".join(self.text(number).split())
+        if not set(text) <= set("0123456"):
+            raise self.error(f"field {number} is {short(text)}; freedoms 1 to 6 may stand there")
+        return text.replace("0", "")
 
     def zero(self, numbers: Iterable[int], what: str) -> None:
         """Refuse the card unless these fields are empty or zero."""
@@ -71,121 +80,21 @@ class Card:
             if text and not (_REAL.match(text) and self.real(number) == 0):
                 raise self.error(f"{what} in field {number} ({short(text)}) cannot be read")
 
+    def filled(self, default: Card | None, *groups: tuple[int, ...]) -> Card:
+        """Return the card with each group of fields that is empty taken from a default card."""
+        if default is None:
+            return self
+        most = max(number for group in groups for number in group)
+        fields = [*self.fields, *[""] * (most - len(self.fields))]
+        for group in groups:
+            if not any(map(self.text, group)):
+                for number in group:
+                    fields[number - 1] = default.text(number)
+        return replace(self, fields=tuple(fields))
+
     def error(self, what: str) -> InputError:
         """Return what is wrong with the card as an error that names it and its line."""
         return InputError(f"{self.path}, line {self.line}: {self.name}: {what}")
-
-
-@dataclass(frozen=True)
-class Subcase:
-    """Settings of a subcase of the case control, upper case: SPC, LOAD, METHOD, STATSUB.
-
-    Attributes
-    ----------
-    number : int
-        0 for what stands before the first subcase.
-    settings : dict
-        Whole numbers by name.
-    """
-
-    number: int
-    settings: dict[str, int] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Deck:
-    """A NASTRAN file.
-
-    Attributes
-    ----------
-    path : Path
-    subcases : tuple of Subcase
-        Each with what it takes from above the first one; empty for a file of bulk data alone.
-    cards : tuple of Card
-    """
-
-    path: Path
-    subcases: tuple[Subcase, ...]
-    cards: tuple[Card, ...]
-
-
-def read_deck(path: Path) -> Deck:
-    """Read a NASTRAN file.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read.
-    """
-    text = read_bytes(path, MOST_BYTES, "a NASTRAN file").decode("utf-8", errors="replace")
-    lines = [(n, line.partition("$")[0].rstrip()) for n, line in enumerate(text.splitlines(), 1)]
-    upper = [line.upper().split() for _, line in lines]
-    begin = next((i for i, words in enumerate(upper) if words[:2] == ["BEGIN", "BULK"]), None)
-    cend = any(words[:1] == ["CEND"] for words in upper)
-    if cend and begin is None:
-        raise InputError(f"{path}: there is no BEGIN BULK after CEND; the file may be cut off")
-    first = 0 if begin is None else begin + 1
-    last = next((i for i, words in enumerate(upper) if words[:1] == ["ENDDATA"]), None)
-    if last is None and begin is not None:
-        raise InputError(f"{path}: there is no ENDDATA at its end; the file may be cut off")
-    control = lines[: begin or 0]
-    return Deck(path, _subcases(control), tuple(_cards(lines[first:last], path)))
-
-
-_SETTING = re.compile(r"\s*(SPC|LOAD|METHOD|STATSUB)\s*(?:\(.*?\))?\s*=\s*(\d{1,9})\s*$", re.I)
-
-
-def _subcases(control: list[tuple[int, str]]) -> tuple[Subcase, ...]:
-    """Return the subcases; a case control without any is one subcase."""
-    found = [Subcase(0)]
-    for _, line in control:
-        if start := re.match(r"\s*SUBCASE\s*=?\s*(\d{1,9})\s*$", line, re.I):
-            found.append(Subcase(int(start[1]), dict(found[0].settings)))
-        elif setting := _SETTING.match(line):
-            found[-1].settings[setting[1].upper()] = int(setting[2])
-    return tuple(found[1:] or (found if control else ()))
-
-
-def _cards(lines: list[tuple[int, str]], path: Path) -> Iterable[Card]:
-    name, start, fields = "", 0, list[str]()
-    for number, line in lines:
-        if not line.strip():
-            continue
-        head, data = _split(line.expandtabs(8), number, path)
-        if head in ("", "+", "*"):
-            if not name:
-                where = f"{path}, line {number}"
-                raise InputError(f"{where}: {short(line)} continues a card, but none is before it")
-            fields += data
-            continue
-        if name:
-            yield Card(name, start, tuple(fields), path)
-        name, start, fields = head, number, data
-    if name:
-        yield Card(name, start, tuple(fields), path)
-
-
-def _split(line: str, number: int, path: Path) -> tuple[str, list[str]]:
-    """Return the name of a line, or what marks a continuation, and its fields."""
-    if "," in line:
-        head, *cells = [cell.strip() for cell in line.split(",")]
-        if len(cells) > 9:
-            raise InputError(
-                f"{path}, line {number}: {len(cells) + 1} fields between commas; a line has at "
-                "most ten: continue it on the next one"
-            )
-        width = 4 if head.endswith("*") or head.startswith("*") else 8
-    else:
-        head = line[:8].strip()
-        size = 16 if "*" in head else 8
-        width = 64 // size
-        cells = [line[8 + size * i : 8 + size * (i + 1)].strip() for i in range(width)]
-    data = (cells + [""] * width)[:width]
-    if not head or head[0] in "+*":
-        return head[:1], data
-    if not _NAME.match(head):
-        raise InputError(f"{path}, line {number}: {short(head)} is no name of a card")
-    return head.rstrip("*").upper(), data
 
 
 def real_text(value: float) -> str:

@@ -1,123 +1,177 @@
-"""N from the preload of a deck.
+"""N from the preload of a deck: its forces and gravity along the axis.
 
-It follows from the forces along the axis of the subcase that a STATSUB names: the bar under them,
-solved for its displacement u, has `N = -EA u'`, compression positive.
+They stand in the subcase that a STATSUB names; in a buckling solution that is the first one. Its
+own supports hold the beam meanwhile.
 """
 
 from __future__ import annotations
 
-from pathlib import Path
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.attachments import Spring
+from antinode.beam.axial import AxialLoads, PointForce, apply_loads
+from antinode.beam.beam import Beam
 from antinode.errors import InputError
+from antinode.exchange.units import System
 from antinode.text import counted
 
-from .attached import held_by, is_joint, joints_of, spring_of
-from .cards import Subcase
+from .attached import ends_of, held_by, inner_supports, place_of
+from .cards import Card
+from .deck import Deck, Subcase
 from .line import Line
 from .model import Model
-from .properties import section_rows
+from .passed import LOADS
 
 
-def subcases_of(subcases: tuple[Subcase, ...], path: Path) -> tuple[Subcase | None, Subcase | None]:
+@dataclass(frozen=True)
+class Loads:
+    """Forces [file's force] at places, and gravity, along the axis."""
+
+    forces: tuple[tuple[float, float], ...]
+    gravity: float
+
+
+def subcases_of(deck: Deck) -> tuple[Subcase | None, Subcase | None]:
     """Return the subcase of the modes, one with preload before others, and that of its preload."""
-    modal = [case for case in subcases if "METHOD" in case.settings]
+    cases = deck.subcases
+    modal = [case for case in cases if "METHOD" in case.settings]
     if not modal:
-        return (subcases[0] if subcases else None), None
+        return (cases[0] if cases else None), None
     loaded = [case for case in modal if "STATSUB" in case.settings]
     chosen = (loaded or modal)[-1]
+    if deck.buckles and not loaded:
+        return chosen, cases[0]
     if not loaded:
         return chosen, None
     number = chosen.settings["STATSUB"]
-    for case in subcases:
+    for case in cases:
         if case.number == number:
             return chosen, case
-    raise InputError(f"{path}: STATSUB names subcase {number}, which is not there; correct it")
+    raise InputError(f"{deck.path}: STATSUB names subcase {number}, which is not there; correct it")
 
 
-def preload_of(model: Model, line: Line, static: Subcase) -> Array:
-    """Return N in every element, compression positive, in units of the file."""
-    if "LOAD" not in static.settings:
-        raise InputError(f"{model.deck.path}: subcase {static.number} has no LOAD, but a STATSUB")
-    k = _axial_stiffness(model, line)
-    forces, held = (
-        _axial_forces(model, line, static.settings["LOAD"]),
-        held_by(model, line, static.settings.get("SPC")),
+def preloaded(beam: Beam, model: Model, line: Line, static: Subcase, system: System) -> Beam:
+    """Return the beam [SI] with the axial force of a subcase.
+
+    Raises
+    ------
+    InputError
+        If the subcase has no load, one that is not along the axis, or nothing to bear it.
+    """
+    loads = _loads(model, line, static)
+    held = held_by(model, line, static.settings.get("SPC"))
+    _check_enforced(model, static.settings.get("SPC"))
+    last = len(line.x) - 1
+    supports = [
+        replace(spring, x=spring.x / system.length) for spring in inner_supports(held, line.x)
+    ]
+    infinite = [item for item in beam.attachments if np.inf in vars(item).values()]
+    kept = tuple(item for item in beam.attachments if item not in infinite)
+    bare = replace(beam, attachments=kept, ends=ends_of(held, last)).with_attachments(*supports)
+    if not _is_borne(bare):
+        _check_balance(model, loads, static)
+        bare = replace(bare, ends=replace(bare.ends, left_axial="fixed"))
+    forces = tuple(PointForce(x / system.length, F / system.force) for x, F in loads.forces)
+    gravity = loads.gravity / (system.length / system.time**2)
+    under = apply_loads(bare, AxialLoads(gravity, 0.0, forces, offset_weight=False))
+    return replace(
+        beam.with_breakpoints(under.x.tolist()),
+        axial_force=under.axial_force,
+        axial_acceleration=under.axial_acceleration,
+        offset_weight=not gravity,
     )
-    fixed = [node for node, names in held.items() if "axial" in names]
-    n = len(line.x)
-    diagonal = np.zeros(n)
-    diagonal[:-1] += k
-    diagonal[1:] += k
-    grounded = False
-    for item in (spring_of(line, c) for c in model.springs if not is_joint(line, c)):
-        if item.axial:
-            diagonal[int(np.argmin(np.abs(line.x - item.x)))] += item.axial
-            grounded = True
-    if not fixed and not grounded:
-        _check_balance(model, forces, static)
-        fixed = [0]
-    u = _displacement(diagonal, k, forces, fixed)
-    return np.asarray(-k * np.diff(u))
 
 
-def _check_balance(model: Model, forces: Array, static: Subcase) -> None:
-    if abs(float(np.sum(forces))) > 1e-6 * float(np.sum(np.abs(forces))):
+def _check_enforced(model: Model, chosen: int | None) -> None:
+    """Refuse supports that move, which would load the beam."""
+    sets = set() if chosen is None else model.chosen_supports(chosen)
+    for number, _, _, card in model.supports:
+        if number in sets and card.name == "SPC":
+            card.zero((4, 7), "an enforced displacement")
+
+
+def _is_borne(beam: Beam) -> bool:
+    springs = any(item.axial for item in beam.attachments if isinstance(item, Spring))
+    return springs or "fixed" in beam.ends.of("longitudinal")
+
+
+def _check_balance(model: Model, loads: Loads, static: Subcase) -> None:
+    forces = np.array([F for _, F in loads.forces])
+    if loads.gravity or abs(float(np.sum(forces))) > 1e-6 * float(np.sum(np.abs(forces))):
         raise InputError(
             f"{model.deck.path}: the forces of subcase {static.number} add up to "
             f"{np.sum(forces):g}, and nothing holds the beam axially; balance them, or hold it"
         )
 
 
-def _axial_stiffness(model: Model, line: Line) -> Array:
-    """Return the stiffness of every element as a bar, with the joint on its right."""
-    compliance = np.zeros(len(line.elements))
-    for i, element in enumerate(line.elements):
-        fraction, _, _, EA = section_rows(model, element, 1).T
-        if not np.all(EA > 0):
-            raise element.card.error("its section has no area A, which the preload needs")
-        size = (line.x[i + 1] - line.x[i]) * np.diff(fraction)
-        ratio = np.log(EA[1:] / EA[:-1])
-        mean = np.where(ratio == 0, 1.0, np.expm1(ratio) / np.where(ratio == 0, 1.0, ratio))
-        compliance[i] = np.sum(size / (EA[:-1] * mean))
-    for joint in joints_of(model, line):
-        compliance[int(np.argmin(np.abs(line.x - joint.x)))] += joint.axial
-    return np.asarray(1 / compliance)
-
-
-def _axial_forces(model: Model, line: Line, chosen: int) -> Array:
-    """Return the forces of a load set along the axis, by node."""
-    forces = np.zeros(len(line.x))
-    for card in model.forces:
-        if card.integer(1) != chosen:
-            continue
-        card.zero((3,), "a coordinate system")
-        vector = card.real(4) * np.array([card.real(i, 0.0) for i in (5, 6, 7)])
-        along = float(vector @ line.frame[0])
-        if np.linalg.norm(vector - along * line.frame[0]) > 1e-9 * np.linalg.norm(vector):
-            raise card.error("it is no force along the beam; a preload is N alone: remove it")
-        grid = card.integer(2)
-        if grid not in line.node:
-            raise card.error(f"grid {grid} is no grid of the beam's elements")
-        forces[line.node[grid]] += along
-    if not np.any(forces):
+def _loads(model: Model, line: Line, static: Subcase) -> Loads:
+    """Return the loads of a subcase along the axis."""
+    path = model.deck.path
+    for name in ("TEMP", "DEFORM"):
+        if name in static.settings:
+            raise InputError(f"{path}: subcase {static.number} has {name}, which is not read")
+    if "LOAD" not in static.settings:
+        raise InputError(f"{path}: subcase {static.number} has no LOAD, but bears the preload")
+    chosen = static.settings["LOAD"]
+    shares = _shares(model, chosen)
+    _check_others(model, set(shares))
+    forces = [
+        _force(model, line, card, share)
+        for card in model.forces
+        if (share := shares.get(card.integer(1), 0.0))
+    ]
+    gravity = sum(
+        shares[card.integer(1)] * _along(model, line, card, None, 3)
+        for card in model.loads
+        if card.name == "GRAV" and card.integer(1) in shares
+    )
+    if not any(F for _, F in forces) and not gravity:
         what = counted(0, "FORCE card")
-        raise InputError(f"{model.deck.path}: the load set {chosen} has {what}; N needs some")
-    return forces
+        raise InputError(f"{path}: the load set {chosen} has {what}; N needs some")
+    return Loads(tuple(forces), gravity)
 
 
-def _displacement(diagonal: Array, k: Array, forces: Array, fixed: list[int]) -> Array:
-    """Solve the bar for its displacements, zero at the fixed nodes."""
-    from scipy.linalg import solve_banded
+def _shares(model: Model, chosen: int) -> dict[int, float]:
+    """Return the load sets that one number stands for, with their factors."""
+    for card in model.loads:
+        if card.name == "LOAD" and card.integer(1) == chosen:
+            whole = card.real(2)
+            pairs = [i for i in range(3, len(card.fields) + 1, 2) if card.text(i)]
+            shares: dict[int, float] = {}
+            for i in pairs:
+                number = card.integer(i + 1)
+                shares[number] = shares.get(number, 0.0) + whole * card.real(i)
+            return shares
+    return {chosen: 1.0}
 
-    band = np.zeros((3, len(diagonal)))
-    band[1], band[0, 1:], band[2, :-1] = diagonal, -k, -k
-    right = forces.copy()
-    for node in fixed:
-        band[1, node], right[node] = 1.0, 0.0
-        band[0, node + 1 : node + 2] = 0.0  # row `node`: zero beside the diagonal
-        if node > 0:
-            band[2, node - 1] = 0.0
-    return np.asarray(solve_banded((1, 1), band, right))
+
+def _check_others(model: Model, sets: set[int]) -> None:
+    """Refuse loads of the preload that are no forces or gravity."""
+    for card in model.deck.cards:
+        if card.name in LOADS and card.text(1).isdigit() and card.integer(1) in sets:
+            raise card.error(
+                "it loads the preload's subcase; FORCE and GRAV along the beam are read"
+            )
+
+
+def _force(model: Model, line: Line, card: Card, share: float) -> tuple[float, float]:
+    grid = card.integer(2)
+    x, arm = place_of(model, line, grid, card)
+    if np.max(np.abs(arm[1:])) > 1e-9 * float(np.ptp(line.x)):
+        raise card.error("it acts beside the axis of the beam, which it bends; only N is read")
+    return x, share * _along(model, line, card, grid, 4)
+
+
+def _along(model: Model, line: Line, card: Card, grid: int | None, first: int) -> float:
+    """Return the component of a load along the axis, which is all of it."""
+    at = np.zeros(3) if grid is None else model.grid(grid, card).at
+    axes = model.systems.directions(card.integer(first - 1, 0), at, card)
+    given = np.array([card.real(i, 0.0) for i in range(first + 1, first + 4)])
+    vector: Array = card.real(first) * given @ axes
+    along = float(vector @ line.frame[0])
+    if np.linalg.norm(vector - along * line.frame[0]) > 1e-9 * np.linalg.norm(vector):
+        raise card.error("it is no force along the beam; a preload is N alone: remove it")
+    return along

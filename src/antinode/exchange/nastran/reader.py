@@ -13,16 +13,19 @@ import numpy as np
 from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
 from antinode.beam.beam import Beam
 from antinode.exchange.units import SI, System
+from antinode.text import counted
 
 from .attached import attachments_of, ends_of, inner_supports
-from .cards import Subcase, read_deck
+from .deck import Subcase, read_deck
 from .line import line_of
-from .model import Model, read_model
-from .preload import preload_of, subcases_of
-from .properties import tables_of
+from .model import Model, passed_notes, read_model
+from .preload import preloaded, subcases_of
+from .properties import notes_of, tables_of
 
 
-def read_nastran(path: Path, system: System = SI, plane: int = 1) -> tuple[Beam, tuple[str, ...]]:
+def read_nastran(
+    path: Path, system: System = SI, plane: int = 1, elements: tuple[range, ...] = ()
+) -> tuple[Beam, tuple[str, ...]]:
     """Read a beam from a NASTRAN file.
 
     Parameters
@@ -32,43 +35,45 @@ def read_nastran(path: Path, system: System = SI, plane: int = 1) -> tuple[Beam,
         Units of the file.
     plane : {1, 2}
         In which the beam bends: that of I1, or of I2.
+    elements : tuple of range
+        Numbers of those that make up the beam; empty for all.
 
     Returns
     -------
     Beam
         SI.
     tuple of str
-        What was left out or assumed.
+        What was left out.
 
     Raises
     ------
     InputError
-        If a card is not understood, or the elements make up no straight beam.
+        If it is no beam, or has a card that is not understood.
     """
     deck = read_deck(path)
-    model = read_model(deck)
+    model = read_model(deck, elements)
     line = line_of(model, plane)
-    modal, static = subcases_of(deck.subcases, path)
+    modal, static = subcases_of(deck)
     tables, x = tables_of(model, line, plane)
     attachments, held = attachments_of(model, line, modal)
-    N = preload_of(model, line, static) if static else np.zeros(len(line.elements))
     tapered = any(np.any(t[:, 0] != t[:, 1]) for t in tables.values())
-    k = np.searchsorted(line.x, (x[1:] + x[:-1]) / 2) - 1
-    tables["axial_force"] = np.repeat(N[k][:, None], 2, axis=1)
     tables = {name: table / _unit(name, system) for name, table in tables.items()}
     beam = Beam(
         x / system.length,
         tables["mass_per_length"],
         tables["bending_stiffness"],
         tables.get("axial_stiffness"),
-        tables["axial_force"],
         ends=ends_of(held, len(line.x) - 1),
         interpolation="linear" if tapered else "step",
         name=path.stem[:200] or "beam",
     )
     supports = inner_supports(held, line.x)
     items = [_in_si(item, system) for item in (*attachments, *supports)]
-    return beam.with_attachments(*items), _notes(model, static, system)
+    beam = beam.with_attachments(*items)
+    if static:
+        beam = preloaded(beam, model, line, static, system)
+    notes = (*_notes(model, modal, static, system), *notes_of(model, line), *passed_notes(model))
+    return beam, notes
 
 
 def _unit(name: str, system: System) -> float:
@@ -77,7 +82,6 @@ def _unit(name: str, system: System) -> float:
         "mass_per_length": system.mass / system.length,
         "bending_stiffness": system.force * system.length**2,
         "axial_stiffness": system.force,
-        "axial_force": system.force,
     }[name]
 
 
@@ -94,10 +98,17 @@ def _in_si(item: Attachment, system: System) -> Attachment:
     return Joint(x, item.rotational * force * length, item.axial * force / length)
 
 
-def _notes(model: Model, static: Subcase | None, system: System) -> tuple[str, ...]:
+def _notes(
+    model: Model, modal: Subcase | None, static: Subcase | None, system: System
+) -> tuple[str, ...]:
     notes = [f"NASTRAN has no units: {system.words} are taken (--units)"]
-    if model.sheared:
-        notes.append("shear factors K1, K2 are left out: the beam is one of Euler and Bernoulli")
+    if modal is not None and len(model.deck.subcases) > 1:
+        count = counted(len(model.deck.subcases), "subcase")
+        notes.append(f"of {count}, {modal.number} is read")
+    if not model.deck.whole:
+        notes.append(
+            "there is no ENDDATA at the end of the file: if it was cut off, cards are missing"
+        )
     if model.forces and not static:
         notes.append("FORCE cards are left out: no subcase of modes has a STATSUB")
     return tuple(notes)
