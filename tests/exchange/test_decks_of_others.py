@@ -335,6 +335,14 @@ def test_units(system, tmp_path):
     assert (mass.mass, spring.translational) == pytest.approx((3.0, 4e3))
 
 
+def test_the_command_line_knows_all_units(tmp_path):
+    (tmp_path / "deck.bdf").write_text(HEAD + GRIDS + BARS + PBAR + MAT1 + CLAMP + "ENDDATA\n")
+    for name, system in SYSTEMS.items():
+        ended = run("convert", tmp_path / "deck.bdf", tmp_path / "b.toml", "--units", name)
+        assert ended.code == 0
+        assert system.words in ended.err
+
+
 def test_pounds_and_inches_are_exact():
     # 1 lbf s^2/in is 175.126835 kg, 1 slug 14.593903 kg; 1 lbf 4.4482216152605 N
     assert 1 / IN_LBF_S.mass == pytest.approx(175.12683524647636, rel=1e-14)

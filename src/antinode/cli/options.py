@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
-from antinode.exchange.units import SystemName
-
 if TYPE_CHECKING:
     from antinode.exchange.inputs import Choices
 
@@ -171,7 +169,7 @@ class Exchange:
         ),
     ] = None
     units: Annotated[
-        SystemName,
+        Literal["SI", "mm-t-s", "mm-kg-ms", "in-lbf-s", "ft-lbf-s"],
         option(
             INPUT,
             "Units of NASTRAN and UFF files that do not say them: SI; mm-t-s (N, MPa); mm-kg-ms "
