@@ -7,7 +7,7 @@ import numpy as np
 import openpyxl
 import pytest
 
-from antinode import InputError, load_beam
+from antinode import InputError, load_beam, solve_modes
 from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
 from antinode.exchange.beam_toml import beam_file_text
@@ -73,18 +73,114 @@ def test_a_jump_among_straight_columns_is_two_rows():
         interpolation="linear",
     )
     stations = tabulate(beam)
-    assert len(stations.columns["x"]) == 4
-    assert np.diff(stations.columns["x"])[1] == pytest.approx(2e-9, rel=1e-6)
-    assert "1 jump" in stations.notes[0]
+    assert stations.columns["x"].tolist() == [0, 1, 1, 2]
+    assert stations.columns["bending_stiffness"].tolist() == [4, 4, 5, 5]
+    assert stations.notes == ()
 
 
 def test_a_force_that_no_file_can_hold_is_refused():
     beam = Beam.from_stations(
         [0, 1, 2], [1, 1, 1], [4, 4, 4], [9, 9, 9], ends=Ends("clamped", "clamped")
     )
-    beam = replace(beam, interpolation="linear", axial_force=np.array([[1.0, 2], [5, 6]]))
+    beam = replace(beam, interpolation="linear", axial_acceleration=3.0)
     with pytest.raises(InputError, match="several supports"):
         beam_file_text(beam)
+
+
+FLANGE = {
+    "x": [0, 40, 40, 80],
+    "mass_per_length": [3300, 2750, 2000, 1800],
+    "bending_stiffness": [2.4e11, 1.5e11, 1.1e11, 0.6e11],
+}
+CLAMPED = ("beam.ends.left=clamped",)
+
+
+def flange_file(folder, ending):
+    """The same tower with a jump in a format."""
+    path = folder / f"flange{ending}"
+    if ending == ".dat":
+        rows = np.column_stack([np.divide(FLANGE["x"], 80), *list(FLANGE.values())[1:]])
+        rows = np.column_stack([rows, rows[:, -1]])
+        path.write_text(
+            "4 NTwInpSt\nHtFract TMassDen TwFAStif TwSSStif\n(-) (kg/m) (Nm^2) (Nm^2)\n"
+            + "\n".join(" ".join(f"{value:.6e}" for value in row) for row in rows)
+        )
+    elif ending == ".toml":
+        columns = "\n".join(f"{name} = {column}" for name, column in FLANGE.items())
+        path.write_text(f'[beam]\ninterpolation = "linear"\n[beam.stations]\n{columns}\n')
+    elif ending == ".csv":
+        rows = "\n".join(",".join(map(str, row)) for row in zip(*FLANGE.values(), strict=True))
+        path.write_text('# interpolation = "linear"\n' + ",".join(FLANGE) + f"\n{rows}\n")
+    else:
+        book = openpyxl.Workbook()
+        sheet, settings = book.active, book.create_sheet("beam")
+        for row in (list(FLANGE), *zip(*FLANGE.values(), strict=True)):
+            sheet.append(row)
+        for row in (("key", "value"), ("interpolation", "linear")):
+            settings.append(row)
+        book.save(path)
+    return path
+
+
+@pytest.mark.parametrize("ending", [".toml", ".csv", ".xlsx", ".dat"])
+def test_two_rows_at_one_x_are_a_jump_in_every_format(ending, tmp_path):
+    path = flange_file(tmp_path, ending)
+    how = {".dat": "sections"}.get(ending, ending[1:])
+    beam = read_beam(path, how, Choices(CLAMPED, length=80.0)).beam
+    assert beam.x.tolist() == [0, 40, 80]
+    found = solve_modes(beam, 2).frequencies_hz()[:2]
+    # Hermite elements, 20, 40 and 80 a half, extrapolated: 4.29546441, 4.29546391, ... -> 4.29546388
+    assert found == pytest.approx([0.88541444, 4.29546388], abs=2e-8)
+
+
+def test_exponential_columns_jump_too():
+    x, m, EI = [0, 1, 1, 3], [1, 2, 8, 4], [4, 2, 3, 9]
+    beam = Beam.from_stations(x, m, EI, axial_force=[1, 2, 7, 5], interpolation="log")
+    assert beam.x.tolist() == [0, 1, 3]
+    assert beam.mass_per_length.tolist() == [[1, 2], [8, 4]]
+    assert beam.axial_force.tolist() == [[1, 2], [7, 5]]
+    assert tabulate(beam).columns["axial_force"].tolist() == [1, 2, 7, 5]
+
+
+@pytest.mark.parametrize(
+    ("x", "how", "words"),
+    [
+        ([0, 1, 1, 1], "linear", "rows 2 and 3"),
+        ([0, 0, 1, 2], "linear", "rows 1 and 2"),
+        ([0, 1, 2, 2], "log", "rows 3 and 4"),
+        ([0, 1, 1, 2], "step", "interpolation = 'linear'"),
+        ([0, 2, 1, 3], "linear", "sort the rows"),
+    ],
+)
+def test_rows_at_one_x_that_are_no_jump(x, how, words, tmp_path):
+    path = tmp_path / "beam.toml"
+    path.write_text(
+        f"[beam]\ninterpolation = '{how}'\n[beam.stations]\nx = {x}\n"
+        "mass_per_length = [1, 1, 1, 1]\nbending_stiffness = [1, 1, 1, 1]\n"
+    )
+    with pytest.raises(InputError, match=words):
+        load_beam(path)
+
+
+def test_a_force_that_jumps_between_supports_is_a_column(tmp_path):
+    beam = Beam.from_stations(
+        [0, 1, 2], [1, 1, 1], [4, 4, 4], [9, 9, 9], ends=Ends("clamped", "clamped")
+    )
+    beam = replace(beam, interpolation="linear", axial_force=np.array([[1.0, 2], [5, 6]]))
+    for ending in ("toml", "csv", "xlsx"):
+        path = tmp_path / f"b.{ending}"
+        write_beam(path, beam, ending)
+        again = read_beam(path, ending, Choices()).beam
+        assert again.axial_force.tolist() == [[1, 2], [5, 6]]
+
+
+def test_a_hull_jumps_where_the_beam_does_not():
+    hull = {"x": np.array([0.0, 1, 1, 2]), "radius": np.array([1.0, 2, 3, 4])}
+    stations = Stations("linear", {"x": np.array([0.0, 1, 2]), "m": np.array([5.0, 6, 7])})
+    columns = stations.with_hull(hull).columns
+    assert columns["x"].tolist() == [0, 1, 1, 2]
+    assert columns["m"].tolist() == [5, 6, 6, 7]
+    assert columns["radius"].tolist() == [1, 2, 3, 4]
 
 
 def test_names_with_quotes_and_formulas(tmp_path):

@@ -122,7 +122,7 @@ class Beam:
         Parameters
         ----------
         x : array_like, shape (n + 1,)
-            Stations [m].
+            Stations [m]; two rows at one x are a jump, unless "step".
         mass_per_length, bending_stiffness, axial_stiffness, axial_force, radius_of_gyration
             Values at the stations, shape (n + 1,) [kg/m, N m^2, N, N, m]. With "step" row k holds
             from x_k to x_k+1 and the last row only closes the table (shape (n,) is accepted too).
@@ -134,6 +134,7 @@ class Beam:
         """
         stations = np.asarray(x, dtype=float)
         intervals = len(stations) - 1
+        kept = (np.diff(stations) != 0) | (interpolation == "step")
 
         def between(values: npt.ArrayLike | None) -> Array | None:
             """Return values at both ends of every interval, shape (n, 2)."""
@@ -145,15 +146,16 @@ class Beam:
             table = np.empty((intervals, 2))
             right = column[:intervals] if interpolation == "step" else column[1:]
             table[:, 0], table[:, 1] = column[:intervals], right
-            table.flags.writeable = False
-            return table
+            own: Array = table[kept]
+            own.flags.writeable = False
+            return own
 
         m, EI = between(mass_per_length), between(bending_stiffness)
         assert m is not None
         assert EI is not None
         N = between(axial_force)
         return cls(
-            stations,
+            np.append(stations[:-1][kept], stations[-1:]),
             m,
             EI,
             between(axial_stiffness),

@@ -71,7 +71,9 @@ class BeamEnds(Frozen):
 class BeamStations(Frozen):
     """The table along the beam; rows count from 1."""
 
-    x: Annotated[Array, Column("m")] = Field(description="position [m], increasing")
+    x: Annotated[Array, Column("m")] = Field(
+        description="position [m], increasing; two rows at one x: a jump"
+    )
     mass_per_length: Annotated[Array, Column("kg/m")] = Field(description="m [kg/m]")
     bending_stiffness: Annotated[Array, Column("N m^2")] = Field(description="EI [N m^2]")
     axial_stiffness: Annotated[Array, Column("N")] | None = Field(
@@ -101,11 +103,27 @@ def _check_positions(x: Array) -> None:
         raise ValueError(f"x has {counted(len(x), 'row')}; a table of stations needs at least two")
     for i in np.flatnonzero(~np.isfinite(x))[:1]:
         raise ValueError(f"x, row {i + 1}, is {x[i]}; it must be a finite number: correct this row")
-    for i in np.flatnonzero(np.diff(x) <= 0)[:1]:
-        step = "remove one of the duplicate rows" if x[i] == x[i + 1] else "sort the rows by x"
+    for i in np.flatnonzero(np.diff(x) < 0)[:1]:
         raise ValueError(
             f"x must increase: row {i + 1} has {x[i]:.10g} m and row {i + 2} {x[i + 1]:.10g} m; "
-            f"{step}"
+            "sort the rows by x"
+        )
+    twice = np.diff(x) == 0
+    lonely = twice & (np.append(True, twice[:-1]) | np.append(twice[1:], True))
+    for i in np.flatnonzero(lonely)[:1]:
+        raise ValueError(
+            f"x must increase: rows {i + 1} and {i + 2} both have {x[i]:.10g} m; two rows at one x "
+            "are a jump inside the beam: remove one of the duplicate rows"
+        )
+
+
+def check_jumps(x: Array, interpolation: Interpolation) -> None:
+    """Raise ValueError where a stepped table has two rows at one x: each row jumps there anyway."""
+    for i in np.flatnonzero(np.diff(x) == 0)[:1] if interpolation == "step" else ():
+        raise ValueError(
+            f"x must increase: rows {i + 1} and {i + 2} both have {x[i]:.10g} m; with "
+            "interpolation = 'step' a row holds up to the next one: remove one of the duplicate "
+            "rows, or set interpolation = 'linear' for a jump between slopes"
         )
 
 
@@ -143,6 +161,7 @@ class BeamTable(AttachmentTables):
     @model_validator(mode="after")
     def _check_masses(self) -> Self:
         x = self.stations.x
+        check_jumps(x, self.interpolation)
         check_on_body(self.masses, float(x[0]), float(x[-1]), self.interpolation)
         return self
 

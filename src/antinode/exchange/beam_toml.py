@@ -1,6 +1,6 @@
 """A beam as a beam file: the tables of `[beam]`, and their text in TOML.
 
-N(x) stands in the column `axial_force` where a column can hold it. Otherwise its jumps become point
+N(x) stands in the column `axial_force` unless it grows with the mass. Then its jumps become point
 forces and the rest gravity, or the acceleration of a free beam: `N(x) = sum of the forces left of x
 + a (mass left of x)`, closed by a force at the right end so that no support has to react.
 """
@@ -93,11 +93,10 @@ def attachment_tables(beam: Beam) -> dict[str, list[dict[str, float]]]:
 def _split(beam: Beam) -> tuple[Beam, dict[str, Any]]:
     """Return the beam with what a column can hold of N, and loads for the rest."""
     table = beam.axial_force
+    if beam.axial_acceleration == 0:
+        return beam, {}
     jumps = np.append(table[0, 0], table[1:, 0] - table[:-1, 1])
     scale = 1e-12 * float(np.max(np.abs(table)))
-    stepped = beam.interpolation == "step" and not np.any(table[:, 0] != table[:, 1])
-    if beam.axial_acceleration == 0 and (stepped or np.all(np.abs(jumps[1:]) <= scale)):
-        return beam, {}
     jumps[np.abs(jumps) <= scale] = 0.0
     rest = table - np.cumsum(jumps)[:, None]
     rest[np.abs(rest) <= scale] = 0.0
@@ -138,8 +137,8 @@ def _check_force(beam: Beam, tables: dict[str, Any]) -> None:
     got = again.axial_force_at(at, (middle - again.x[at]) / np.diff(again.x)[at])
     if np.max(np.abs(got - wanted)) > _SAME * np.max(np.abs(wanted)):
         raise InputError(
-            "the axial force of this beam jumps and several supports hold it axially: a beam file "
-            "cannot hold that; write a .csv or .xlsx, which tabulate it"
+            "the axial force of this beam grows with its mass, and several supports hold it "
+            "axially: a beam file cannot hold that; write a .csv or .xlsx, which tabulate it"
         )
 
 

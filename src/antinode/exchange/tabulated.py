@@ -1,9 +1,8 @@
 """A beam as a table of stations: one row a station, as a beam file, CSV and XLSX have it.
 
 Between two rows columns run linearly, or exponentially; with "step" a row holds up to the next one.
-A file allows one row at one x: where a column jumps although another one varies, two rows stand
-`JUMP` of the length apart. Under an acceleration N(x) is a curve where the mass varies; there
-further rows are put in.
+Where a column jumps although another one varies two rows stand at one x. Under an acceleration N(x)
+is a curve where the mass varies; there further rows are put in.
 """
 
 from __future__ import annotations
@@ -17,10 +16,7 @@ import numpy.typing as npt
 from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
 from antinode.beam.file import COLUMNS
-from antinode.text import counted
 
-JUMP = 1e-9
-"""Distance of the two rows of a jump, in lengths of the beam."""
 PIECES = 16
 """Into which an interval is divided where N is a curve."""
 PROPERTIES = COLUMNS[1:]
@@ -52,15 +48,32 @@ class Stations:
         """Return the table with the columns of a hull."""
         if not hull:
             return self
-        x = self.columns["x"]
-        row = np.clip(np.searchsorted(hull["x"], x, side="right") - 1, 0, len(hull["x"]) - 1)
-        step = self.interpolation == "step"
-        more = {
-            name: column[row] if step else np.interp(x, hull["x"], column)
-            for name, column in hull.items()
-            if name != "x"
-        }
-        return replace(self, columns=self.columns | more)
+        rows = self._rows_with_jumps(hull["x"])
+        columns = {name: column[rows] for name, column in self.columns.items()}
+        if self.interpolation == "step":
+            last = len(hull["x"]) - 1
+            k = np.searchsorted(hull["x"], columns["x"], side="right") - 1
+            k, t = np.clip(k, 0, last), np.zeros(len(k))
+        else:
+            k, t = _inside(columns["x"], hull["x"])
+        right = np.minimum(k + 1, len(hull["x"]) - 1)
+        more = {n: c[k] + (c[right] - c[k]) * t for n, c in hull.items() if n != "x"}
+        return replace(self, columns=columns | more)
+
+    def _rows_with_jumps(self, x: Array) -> npt.NDArray[np.intp]:
+        """Return the rows, twice those at which a hull with these x jumps."""
+        own = self.columns["x"]
+        jumps = x[1:][np.diff(x) == 0]
+        once = [j for j in jumps.tolist() if np.count_nonzero(own == j) == 1]
+        return np.sort(np.concatenate([np.arange(len(own)), np.searchsorted(own, once)]))
+
+
+def _inside(x: Array, table: Array) -> tuple[npt.NDArray[np.intp], Array]:
+    """Return interval and fraction of it in a table; the second of two rows stands on the right."""
+    second = np.append(False, np.diff(x) == 0)
+    sides = (np.searchsorted(table, x, side=side) for side in ("left", "right"))
+    k = np.clip(np.where(second, *reversed(tuple(sides))) - 1, 0, len(table) - 2)
+    return k, np.clip((x - table[k]) / np.diff(table)[k], 0.0, 1.0)
 
 
 def tabulate(beam: Beam) -> Stations:
@@ -78,11 +91,12 @@ def tabulate(beam: Beam) -> Stations:
     beam = with_straight_force(beam)
     tables = _properties(beam)
     starts = _starts(tables, len(beam.x) - 1)
-    x = np.stack([beam.x[:-1] + JUMP * beam.length * (np.arange(len(starts)) > 0), beam.x[1:]], 1)
+    x = np.stack([beam.x[:-1], beam.x[1:]], axis=1)
     kept = np.stack([starts, np.ones(len(starts), dtype=bool)], axis=1)
     columns = {"x": x[kept], **{name: table[kept] for name, table in tables.items()}}
     interpolation: Interpolation = "log" if beam.interpolation == "log" else "linear"
-    return Stations(interpolation, columns, _notes(int(np.sum(starts)) - 1, curved=curved))
+    say = f"N(x) is a curve: it is written as {PIECES} straight pieces an interval"
+    return Stations(interpolation, columns, (say,) if curved else ())
 
 
 def with_straight_force(beam: Beam) -> Beam:
@@ -119,13 +133,3 @@ def _starts(tables: dict[str, Array], intervals: int) -> npt.NDArray[np.bool_]:
         scale = 1e-12 * np.max(np.abs(table))
         starts[1:] |= np.abs(table[1:, 0] - table[:-1, 1]) > scale
     return starts
-
-
-def _notes(jumps: int, *, curved: bool) -> tuple[str, ...]:
-    notes = []
-    if jumps:
-        text = "each is written as two rows" if jumps > 1 else "it is written as two rows"
-        notes.append(f"{counted(jumps, 'jump')} between stations: {text} {JUMP:g} lengths apart")
-    if curved:
-        notes.append(f"N(x) is a curve: it is written as {PIECES} straight pieces an interval")
-    return tuple(notes)
