@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from antinode import solve_modes
+from antinode import InputError, solve_modes
+from antinode.beam.attachments import PointMass
 from antinode.exchange.inputs import Choices, read_beam
 from cli_run import refused, run
 
@@ -70,6 +71,53 @@ def test_sections_of_bmodes_and_their_closed_form(tmp_path):
     assert f1 == pytest.approx(1.875104069**2 / (2 * np.pi * 400) * np.sqrt(1e9 / 100), rel=1e-8)
 
 
+CONCENTRATED = """\
+---------------------- TOWER CONCENTRATED MASSES ------------------------------
+          2   NTwCMass    - Number of tower concentrated masses
+  HtFract       TwCMass
+   (-)            (kg)
+  0.5           9000
+  1.0           60000
+"""
+
+
+def test_concentrated_masses(tower):
+    tower.write_text(TOWER + CONCENTRATED)
+    choices = Choices(("beam.ends.left=clamped",), length=80.0)
+    masses = read_beam(tower, "sections", choices).beam.attachments
+    assert masses == (PointMass(40.0, 9000.0), PointMass(80.0, 60000.0))
+    tower.write_text(TOWER + CONCENTRATED.replace("(kg)", "(t)").replace("0.5 ", "0.0 "))
+    masses = read_beam(tower, "sections", choices).beam.attachments
+    assert masses == (PointMass(0.0, 9e6), PointMass(80.0, 6e7))
+    for change, words in (
+        (("2   NTwCMass", "3   NTwCMass"), "2 rows below it, but 3 are announced"),
+        (("TwCMass\n", "TwDrag\n"), "a second table, of twdrag"),
+        (("1.0           6", "1.2           6"), "60000 at 1.2"),
+    ):
+        tower.write_text(TOWER + CONCENTRATED.replace(*change))
+        with pytest.raises(InputError, match=words):
+            read_beam(tower, "sections", choices)
+    none = "0 NTwCMass - number\n  HtFract       TwCMass\n   (-)            (kg)\n"
+    tower.write_text(TOWER + none)
+    assert read_beam(tower, "sections", choices).beam.attachments == ()
+
+
+def test_rotary_and_axial_columns_of_a_tower(tower):
+    head = "HtFract TMassDen TwFAStif TwSSStif TwGJStif TwEAStif TwFAIner TwSSIner\n"
+    units = "(-) (kg/m) (Nm^2) (Nm^2) (Nm^2) (N) (kg m) (kg m)\n".replace("kg m)", "kg-m)")
+    rows = "0 4000 4e11 4e11 3e11 6e10 1e5 2e5\n1 2000 2e11 2e11 1e11 3e10 5e4 1e5\n"
+    tower.write_text("2 NTwInpSt\n" + head + units + rows)
+    for plane, r in ((1, 5.0), (2, np.sqrt(50.0))):
+        found = read_beam(tower, "sections", Choices(plane=plane, length=80.0))
+        np.testing.assert_allclose(found.beam.radius_of_gyration, r)
+        np.testing.assert_allclose(found.beam.axial_stiffness, [[6e10, 3e10]])
+        assert any("twgjstif" in note for note in found.notes)
+    tower.write_text("2 NTwInpSt\n" + head + units + rows.replace("5e4", "0"))
+    found = read_beam(tower, "sections", Choices(length=80.0))
+    assert found.beam.radius_of_gyration is None
+    assert any("twfainer" in note for note in found.notes)
+
+
 def test_units_are_read(tmp_path):
     path = tmp_path / "secs.dat"
     path.write_text(BMODES.replace("(Nm^2)     (Nm^2)     (Nm^2)", "(kNm^2)    (MNm^2)    (Nm^2)"))
@@ -85,9 +133,24 @@ WRONG = {
     "a factor": (("2   AdjTwMa", "x   AdjTwMa"), ("--length", "80"), ("line 8", "AdjTwMa")),
     "no table": (("HtFract", "Height"), ("--length", "80"), ("no table of sections",)),
     "fractions that fall": (
-        ("1.0000000E+00 3.0", "0.2000000E+00 3.0"),
+        ("0.5000000E+00 4.0", "1.5000000E+00 4.0"),
         ("--length", "80"),
         ("x must increase",),
+    ),
+    "a table that ends before the top": (
+        ("1.0000000E+00 3.0", "0.9000000E+00 3.0"),
+        ("--length", "80"),
+        ("line 12", "htfract runs from 0 to 0.9", "from 0 to 1"),
+    ),
+    "a table that begins above the foot": (
+        ("0.0000000E+00 5.5", "0.1000000E+00 5.5"),
+        ("--length", "80"),
+        ("htfract runs from 0.1 to 1",),
+    ),
+    "more rows than announced": (
+        ("3   NTwInpSt", "2   NTwInpSt"),
+        ("--length", "80"),
+        ("3 sections from line 14", "ntwinpst says 2"),
     ),
     "a negative mass": (("3.0000000E+03 2", "-3.000000E+03 2"), ("--length", "80"), ("row 3",)),
     "a length without sense": ((), ("--length", "80kg"), ("--length '80kg'",)),

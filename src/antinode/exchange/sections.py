@@ -2,7 +2,8 @@
 
 A line of column names, a line of units in parentheses, then one row a section; words after the
 numbers, and what stands above the names, are passed over but for the factors that adjust a column.
-Sections stand at fractions of the length, and columns run linearly between them.
+Sections stand at fractions of the length, from 0 to 1, and columns run linearly between them. A
+second table of the same kind of fractions holds concentrated masses.
 """
 
 from __future__ import annotations
@@ -63,17 +64,25 @@ KINDS = (
         "htfract",
         "tmassden",
         ("twfastif", "twssstif"),
+        axial="tweastif",
+        inertia=("twfainer", "twssiner"),
         factors={"tmassden": "adjtwma", "twfastif": "adjfast", "twssstif": "adjssst"},
         count="ntwinpst",
+        unmodelled=("twgjstif", "twfacgof", "twsscgof"),
     ),
     Kind(
         "ElastoDyn blade",
         "blfract",
         "bmassden",
         ("flpstff", "edgstff"),
+        axial="eastff",
+        inertia=("flpiner", "edginer"),
         factors={"bmassden": "adjblms", "flpstff": "adjflst", "edgstff": "adjedst"},
         count="nblinpst",
-        unmodelled=("strctwst",),
+        unmodelled=(
+            *("strctwst", "gjstff", "alpha", "precrvref", "preswpref", "flpcgof", "edgcgof"),
+            *("flpeaof", "edgeaof"),
+        ),
     ),
     Kind(
         "BModes sections",
@@ -83,7 +92,7 @@ KINDS = (
         axial="axial_stff",
         inertia=("flp_iner", "edge_iner"),
         count="n_secs",
-        unmodelled=("str_tw", "tw_iner", "cg_offst", "sc_offst", "tc_offst"),
+        unmodelled=("str_tw", "tw_iner", "tor_stff", "cg_offst", "sc_offst", "tc_offst"),
     ),
 )
 UNITS = {"mass": "kg/m", "stiffness": "N m^2", "axial": "N", "inertia": "kg m"}
@@ -117,7 +126,8 @@ def read_sections(
     text = read_bytes(path, MOST_BYTES, "a table of sections").decode("utf-8", errors="replace")
     lines = text.splitlines()
     kind, head = _kind(lines, path)
-    columns = _columns(lines, head, kind, path)
+    columns, end = _columns(lines, head, kind, path)
+    _check_fractions(columns[kind.x], f"{path}, line {head + 1}: column {kind.x}")
     if length is None:
         raise InputError(
             f"{path}: the sections stand at fractions of the length of the {kind.name[:9]} file's "
@@ -132,16 +142,77 @@ def read_sections(
     }
     if kind.axial in columns:
         stations["axial_stiffness"] = columns[kind.axial].tolist()
-    if kind.inertia and kind.inertia[plane - 1] in columns:
-        inertia = columns[kind.inertia[plane - 1]]
+    left: list[str] = []
+    if kind.inertia and np.any(inertia := columns.get(kind.inertia[plane - 1], np.zeros(1))):
         if np.all(inertia > 0) and np.all(columns[kind.mass] > 0):
             stations["radius_of_gyration"] = np.sqrt(inertia / columns[kind.mass]).tolist()
-    table = {"name": path.stem[:200], "interpolation": "linear", "stations": stations}
-    return table, _notes(kind, columns, plane)
+        else:
+            left.append(kind.inertia[plane - 1])
+    table: dict[str, Any] = {
+        "name": path.stem[:200],
+        "interpolation": "linear",
+        "stations": stations,
+    }
+    if masses := _concentrated(lines, end, kind, path):
+        table["point_masses"] = [{"x": at * length, "mass": mass} for at, mass in masses]
+    return table, _notes(kind, columns, plane, left)
 
 
-def _notes(kind: Kind, columns: Mapping[str, Array], plane: int) -> tuple[str, ...]:
+def _check_fractions(at: Array, where: str) -> None:
+    """Refuse a table that is no table of fractions of the whole length."""
+    if not (abs(at[0]) <= _SAME and abs(at[-1] - 1) <= _SAME):
+        raise InputError(
+            f"{where} runs from {at[0]:g} to {at[-1]:g}; fractions of the length run from 0 to 1: "
+            "complete the table"
+        )
+
+
+_SAME = 1e-6
+
+
+def _concentrated(
+    lines: Sequence[str], start: int, kind: Kind, path: Path
+) -> list[tuple[float, float]]:
+    """Return fractions and masses of the tables of concentrated masses below the sections."""
+    found: list[tuple[float, float]] = []
+    for number in range(start, len(lines)):
+        names = lines[number].lower().split()
+        if names[:1] != [kind.x]:
+            continue
+        where = f"{path}, line {number + 1}"
+        if len(names) != 2 or not names[1].endswith("cmass"):
+            raise InputError(
+                f"{where}: a second table, of {', '.join(names[1:])}, cannot be read; known is one "
+                "of concentrated masses, e.g. TwCMass: remove the other"
+            )
+        units = lines[number + 1].split() if number + 1 < len(lines) else []
+        units = units if units and units[0].startswith("(") else []
+        factor = _si(units[1], "kg", f"{where}: column {names[1]}") if len(units) > 1 else 1.0
+        rows = _rows(lines, number + 1 + bool(units), 2)
+        _check_count(len(rows), _above(lines[start:number], f"n{names[1]}", len(rows), path), where)
+        for at, mass in rows:
+            if not (0 <= at <= 1 and mass >= 0):
+                raise InputError(
+                    f"{where}: a mass of {mass:g} at {at:g}; fractions run from 0 to 1, and masses "
+                    "are positive"
+                )
+        found += [(at, mass * factor) for at, mass in rows if mass]
+    return found
+
+
+def _check_count(rows: int, wanted: float, where: str) -> None:
+    if rows != wanted:
+        raise InputError(
+            f"{where}: {rows} rows below it, but {wanted:g} are announced above; correct the "
+            "number, or complete the table"
+        )
+
+
+def _notes(
+    kind: Kind, columns: Mapping[str, Array], plane: int, more: Sequence[str]
+) -> tuple[str, ...]:
     left = [name for name in kind.unmodelled if name in columns and np.any(columns[name])]
+    left += more
     notes = [f"{kind.name}, {kind.stiffness[plane - 1]}: plane {plane} of bending (--plane)"]
     if left:
         notes.append(f"left out, since a beam in one plane has none: {', '.join(left)}")
@@ -161,8 +232,10 @@ def _kind(lines: Sequence[str], path: Path) -> tuple[Kind, int]:
     )
 
 
-def _columns(lines: Sequence[str], head: int, kind: Kind, path: Path) -> dict[str, Array]:
-    """Return the columns in SI; x as it stands."""
+def _columns(
+    lines: Sequence[str], head: int, kind: Kind, path: Path
+) -> tuple[dict[str, Array], int]:
+    """Return the columns in SI, x as it stands, and the number of the line below them."""
     names = lines[head].lower().split()
     needed = [kind.x, kind.mass, *kind.stiffness]
     for name in needed:
@@ -172,12 +245,13 @@ def _columns(lines: Sequence[str], head: int, kind: Kind, path: Path) -> dict[st
     start = head + 1 + (bool(units) and units[0].startswith("("))
     factors = _factors(names, units, kind, path, head + 2) if start > head + 1 else {}
     rows = _rows(lines, start, len(names))
-    wanted = int(_above(lines[:head], kind.count, len(rows), path))
-    if len(rows) < max(wanted, 2):
+    wanted = int(_above(lines[:head], kind.count, max(len(rows), 2), path))
+    if len(rows) != wanted:
         say = f"{len(rows)} sections from line {start + 1} on, but {kind.count} says {wanted}"
-        raise InputError(f"{path}: {say}; the file may be cut off")
-    table = np.array(rows[:wanted])
-    return {n: table[:, i] * factors.get(n, 1.0) for i, n in enumerate(names)}
+        raise InputError(f"{path}: {say}; correct the number, or complete the table")
+    table = np.array(rows)
+    columns = {n: table[:, i] * factors.get(n, 1.0) for i, n in enumerate(names)}
+    return columns, start + len(rows)
 
 
 def _rows(lines: Sequence[str], start: int, width: int) -> list[list[float]]:
@@ -208,12 +282,17 @@ def _factors(
     factors = {}
     for name, unit in zip(names, units, strict=False):
         if name in si:
-            written = unit.strip("()").replace("Nm", "N m").replace("kg-m", "kg m")
-            try:
-                factors[name] = unit_factor(written, si[name])
-            except ValueError as error:
-                raise InputError(f"{path}, line {line}: column {name}: {error}") from error
+            factors[name] = _si(unit, si[name], f"{path}, line {line}: column {name}")
     return factors
+
+
+def _si(unit: str, si: str, where: str) -> float:
+    """Return the factor from a unit in parentheses to SI."""
+    written = unit.strip("()").replace("Nm", "N m").replace("kg-m", "kg m")
+    try:
+        return unit_factor(written, si)
+    except ValueError as error:
+        raise InputError(f"{where}: {error}") from error
 
 
 def _above(lines: Sequence[str], key: str, default: float, path: Path) -> float:
@@ -222,7 +301,8 @@ def _above(lines: Sequence[str], key: str, default: float, path: Path) -> float:
         words = line.split()
         if len(words) > 1 and words[1].lower().strip(":") == key:
             value = _number(words[0])
-            if not (math.isfinite(value) and 0 < value <= 1e6):
+            least = 0.0 if key.startswith("n") else 1e-9  # a count may be none, a factor not
+            if not (math.isfinite(value) and least <= value <= 1e6):
                 raise InputError(
                     f"{path}, line {number}: {words[1]} is {short(words[0])}; it must be a "
                     "positive number"
