@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import get_args
@@ -109,7 +110,7 @@ def _check(request: Request, how_in: Format, how_out: Format) -> None:
         )
     if how_out == "sections":
         raise InputError("--to sections cannot be written; choose toml, csv or xlsx")
-    if request.source.resolve() == request.target.resolve():
+    if os.path.realpath(request.source) == os.path.realpath(request.target):
         raise InputError(f"{request.target} is the input; name another file for the output")
     check_output(request.target, [request.target.suffix.lower()])
     check_libraries(how_out)

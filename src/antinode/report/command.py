@@ -14,6 +14,7 @@ from antinode.modes.solve import solve_modes
 from antinode.show.dataset import check_output
 from antinode.show.outcome import print_json, say_written
 from antinode.vehicle.case import Case, load_case
+from antinode.whole import write_file
 
 from .beam_report import beam_report
 from .blocks import Document
@@ -110,10 +111,11 @@ def _solved(problem: Case | BeamFile, modes: int | None, tolerance: float | None
 def write_report(document: Document, path: Path) -> None:
     """Write a document as HTML or PDF, by the ending, whole or not at all."""
     page = to_html(document).encode() if path.suffix.lower() == ".html" else to_pdf(document)
-    partial = path.with_name(f".{path.name}.partial")
     try:
-        partial.write_bytes(page)
-        partial.replace(path)
+        write_file(path, lambda partial: _write(partial, page))
     except OSError as error:
-        partial.unlink(missing_ok=True)
         raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
+
+
+def _write(path: Path, page: bytes) -> None:
+    path.write_bytes(page)

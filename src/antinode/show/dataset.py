@@ -9,7 +9,6 @@ import json
 import math
 import os
 from collections.abc import Callable, Iterable
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +20,7 @@ from antinode.errors import InputError
 from antinode.extras import import_extra
 from antinode.modes.result import ModalResult, Mode
 from antinode.text import short
+from antinode.whole import write_file
 
 if TYPE_CHECKING:
     import xarray
@@ -158,15 +158,10 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
     InputError
         If it cannot be written.
     """
-    partial = path.with_name(f".{path.name}.partial")
     try:
-        write(partial)
-        partial.replace(path)
+        write_file(path, write)
     except OSError as error:
         raise InputError(_cannot_write(path, error)) from error
-    finally:
-        with suppress(OSError):
-            partial.unlink(missing_ok=True)
 
 
 ENDINGS = (".csv", ".json", ".nc")
@@ -192,7 +187,7 @@ def check_output(path: Path, endings: Iterable[str]) -> None:
     if path.suffix.lower() == ".nc":
         for module in ("xarray", "h5netcdf"):
             import_extra(module, "dataset")
-    if exists and path.suffix.lower() == ".csv" and _is_station_table(path):
+    if path.is_file() and path.suffix.lower() == ".csv" and _is_station_table(path):
         raise InputError(f"{path}: this is a table of stations, an input; name another file")
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from antinode.beam.families import BENDING, LONGITUDINAL
 from antinode.errors import InputError
 from antinode.modes.result import ModalResult, Mode
+from antinode.whole import write_file
 
 from .dataset import check_output
 from .sketch import draw_beam, mark_stations
@@ -40,7 +41,8 @@ def save(figure: Figure, path: Path) -> None:
     """Write a figure to .png, .svg or .pdf."""
     try:
         with styled():
-            figure.savefig(path)
+            kind = path.suffix[1:].lower()
+            write_file(path, lambda partial: figure.savefig(partial, format=kind))
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
     finally:

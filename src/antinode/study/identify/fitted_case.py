@@ -14,6 +14,7 @@ from antinode.errors import InputError
 from antinode.vehicle.case import Case
 from antinode.vehicle.options import Model
 from antinode.vehicle.vehicle import Stations
+from antinode.whole import put
 
 from .result import Identification
 from .tables import comparison_csv, parameter_csv
@@ -84,7 +85,7 @@ def write_identification(
             partial.write_text(text, encoding="utf-8")
             written.append(partial)
         for partial in written:
-            partial.replace(folder / partial.name[1 : -len(".partial")])
+            put(partial, folder / partial.name[1 : -len(".partial")])
     except OSError as error:
         for partial in written:
             with suppress(OSError):
