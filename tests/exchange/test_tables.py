@@ -1,5 +1,6 @@
 """Beams as beam files, CSV and workbooks, there and back; independent readers open them."""
 
+import json
 import tomllib
 from dataclasses import replace
 
@@ -16,6 +17,7 @@ from antinode.exchange.inputs import Choices, read_beam
 from antinode.exchange.outputs import write_beam
 from antinode.exchange.tabulated import Stations, tabulate
 from antinode.inputs.reading import read_csv
+from cli_run import refused, run
 from exchange.conversions import EXAMPLES, difference, everything, example, solved
 
 NAMES = (*EXAMPLES, "everything")
@@ -181,6 +183,23 @@ def test_a_hull_jumps_where_the_beam_does_not():
     assert columns["x"].tolist() == [0, 1, 1, 2]
     assert columns["m"].tolist() == [5, 6, 6, 7]
     assert columns["radius"].tolist() == [1, 2, 3, 4]
+
+
+@pytest.mark.parametrize("ending", [".csv", ".xlsx"])
+def test_a_table_stands_where_a_beam_file_is_expected(ending, tmp_path):
+    path = flange_file(tmp_path, ending)
+    beam = load_beam(path, CLAMPED).beam()
+    assert (beam.ends.left, beam.name, beam.interpolation) == ("clamped", "flange", "linear")
+    found = []
+    for file in (path, flange_file(tmp_path, ".toml")):
+        ended = run("beam", file, "--set", CLAMPED[0], "--modes", "2", "--json")
+        assert ended.code == 0, ended
+        found.append([mode["omega2"] for mode in json.loads(ended.out)["modes"]])
+    assert found[0] == found[1]
+    report = tmp_path / "report.html"
+    assert run("report", path, "--set", CLAMPED[0], "-o", report).code == 0
+    refused(run("beam", path, "--set", "beam.ends.lft=clamped"), "lft", "(with --set)")
+    refused(run("beam", tmp_path / f"gone{ending}"), "no such file")
 
 
 def test_names_with_quotes_and_formulas(tmp_path):

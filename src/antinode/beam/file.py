@@ -14,7 +14,8 @@ from antinode.arrays import Array, Interpolation
 from antinode.errors import InputError
 from antinode.inputs.columns import Column, with_closed_stations
 from antinode.inputs.explain import validate
-from antinode.inputs.reading import naming, read_tables
+from antinode.inputs.override import override
+from antinode.inputs.reading import Tables, naming, read_tables
 from antinode.inputs.units import Frozen, Number
 from antinode.text import counted
 
@@ -23,6 +24,7 @@ from .beam import Beam
 from .ends import AxialEnd, End, Ends
 from .limits import check_limits
 from .mass import MassTable, check_on_body
+from .station_csv import without_hull
 from .tables import AttachmentTables
 
 COLUMNS = (
@@ -202,13 +204,50 @@ def _with_part(beam: Beam, part: MassTable) -> Beam:
     )
 
 
+TABLES = (".csv", ".xlsx")
+"""Endings of tables of stations, which stand where a beam file is expected."""
+
+
+def table_of_stations(path: Path) -> dict[str, Any] | None:
+    """Return the table `[beam]` of a CSV file or a workbook, None for a file of another kind.
+
+    Columns of a hull, which a beam has no use for, are among those of the stations.
+    """
+    if path.suffix.lower() == ".csv":
+        from .station_csv import read_station_csv
+
+        return read_station_csv(path, COLUMNS)
+    if path.suffix.lower() == ".xlsx":
+        from .workbook import read_workbook
+
+        return read_workbook(path, COLUMNS)
+    return None
+
+
+def beam_file_tables(path: Path, assignments: Iterable[str] = ()) -> Tables:
+    """Return the tables of a beam file, or of stations in a table of their own.
+
+    Raises
+    ------
+    InputError
+        If anything in it cannot be read.
+    """
+    table = table_of_stations(path)
+    if table is None:
+        return read_tables(path, assignments, "beam", COLUMNS)
+    tables, assignments = {"beam": without_hull(table)}, tuple(assignments)
+    override(tables, assignments)
+    where = f"{path} (with --set)" if assignments else str(path)
+    return Tables(tables, where, {})
+
+
 def load_beam(path: str | Path, assignments: Iterable[str] = ()) -> BeamFile:
     """Read a beam file.
 
     Parameters
     ----------
     path : str or Path
-        A TOML file.
+        A TOML file; or a table of stations in CSV, or a workbook, with no more than that.
     assignments : iterable of str
         Overrides such as ``"beam.ends.left=clamped"``.
 
@@ -223,7 +262,7 @@ def load_beam(path: str | Path, assignments: Iterable[str] = ()) -> BeamFile:
         If anything in it is wrong.
     """
     path = Path(path)
-    tables, where, elsewhere = read_tables(path, assignments, "beam", COLUMNS)
+    tables, where, elsewhere = beam_file_tables(path, assignments)
     if "vehicle" in tables and "beam" not in tables:
         raise InputError(f"{path}: this is a vehicle's case; use 'antinode modes {path}'")
     file = validate(BeamFile, tables, where, elsewhere)

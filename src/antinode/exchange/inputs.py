@@ -8,9 +8,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from antinode.beam.beam import Beam
-from antinode.beam.file import BeamFile, Solve, load_beam
+from antinode.beam.file import COLUMNS, BeamFile, Solve, load_beam
 from antinode.beam.limits import check_limits
+from antinode.beam.station_csv import HULL, read_station_csv, without_hull
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.override import override
@@ -18,7 +21,6 @@ from antinode.inputs.reading import naming, read_toml
 from antinode.text import short
 
 from .formats import Format
-from .station_csv import read_station_csv, without_hull
 from .tabulated import Hull
 from .units import SI, System
 
@@ -102,21 +104,16 @@ def read_beam(path: Path, how: Format, choices: Choices) -> Found:
     InputError
         If it cannot be read.
     """
-    if how == "toml":
-        return _from_toml(path, choices.assignments)
-    if how == "nastran":
-        return _from_nastran(path, choices)
-    readers: dict[str, Callable[[Path, Choices], tuple[dict[str, Any], Notes]]] = {
-        "csv": _csv,
-        "xlsx": _xlsx,
-        "sections": _sections,
+    readers: dict[str, Callable[[Path, Choices], Found]] = {
+        "toml": _from_toml,
+        "csv": _from_csv,
+        "xlsx": _from_workbook,
+        "nastran": _from_nastran,
+        "sections": _from_sections,
     }
     if how not in readers:
         raise InputError(f"{path}: a beam cannot be read from the format {how}; give another file")
-    table, notes = readers[how](path, choices)
-    table, hull = without_hull(table)
-    found = _from_tables({"beam": table}, str(path), choices.assignments, notes)
-    return replace(found, hull=hull)
+    return readers[how](path, choices)
 
 
 def _from_tables(
@@ -133,7 +130,8 @@ def _from_tables(
     return Found(beam, file.solve, notes)
 
 
-def _from_toml(path: Path, assignments: Iterable[str]) -> Found:
+def _from_toml(path: Path, choices: Choices) -> Found:
+    assignments = choices.assignments
     if "vehicle" in read_toml(path):
         from antinode.vehicle.case import load_case
 
@@ -158,17 +156,28 @@ def _from_nastran(path: Path, choices: Choices) -> Found:
     return Found(beam, Solve(), notes)
 
 
-def _csv(path: Path, _: Choices) -> tuple[dict[str, Any], Notes]:
-    return read_station_csv(path), ()
+def _from_csv(path: Path, choices: Choices) -> Found:
+    return _with_hull(read_station_csv(path, COLUMNS), path, choices)
 
 
-def _xlsx(path: Path, _: Choices) -> tuple[dict[str, Any], Notes]:
-    from .workbook import read_workbook
+def _from_workbook(path: Path, choices: Choices) -> Found:
+    from antinode.beam.workbook import read_workbook
 
-    return read_workbook(path), ()
+    return _with_hull(read_workbook(path, COLUMNS), path, choices)
 
 
-def _sections(path: Path, choices: Choices) -> tuple[dict[str, Any], Notes]:
+def _with_hull(table: dict[str, Any], path: Path, choices: Choices) -> Found:
+    """Return the beam of a table of stations, with the columns of a hull beside it."""
+    tables = {"beam": without_hull(table)}
+    found = _from_tables(tables, str(path), choices.assignments, ())
+    columns = table["stations"]
+    names = [name for name in HULL if name in columns]
+    hull = {name: np.array(columns[name]) for name in ("x", *names)} if names else {}
+    return replace(found, hull=hull)
+
+
+def _from_sections(path: Path, choices: Choices) -> Found:
     from .sections import read_sections
 
-    return read_sections(path, choices.plane, choices.length)
+    table, notes = read_sections(path, choices.plane, choices.length)
+    return _from_tables({"beam": table}, str(path), choices.assignments, notes)

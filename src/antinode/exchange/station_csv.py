@@ -1,28 +1,12 @@
-"""Stations of a beam as CSV: a header with units, one row a station.
-
-A first line `# interpolation = "step"` says how the columns run; readers that pass over comments do
-not mind it.
-"""
+"""Stations of a beam as CSV; `beam/station_csv.py` says how, and reads them."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
-from pathlib import Path
-from typing import Any
-
-import numpy as np
-
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
-from antinode.beam.file import COLUMNS
-from antinode.inputs.reading import COLUMN_UNITS, read_csv
+from antinode.inputs.reading import COLUMN_UNITS
 
-from .tabulated import HULL, Hull, Stations, tabulate
-
-KNOWN = (*COLUMNS, *HULL)
-"""Columns that a table of stations may have."""
-_INTERPOLATION = re.compile(r'^#\s*interpolation\s*=\s*"?(step|linear|log)"?\s*$', re.MULTILINE)
+from .tabulated import Hull, Stations, tabulate
 
 
 def station_csv(beam: Beam, hull: Hull) -> tuple[str, tuple[str, ...]]:
@@ -50,32 +34,3 @@ def left_out(beam: Beam) -> tuple[str, ...]:
         ends = f"{beam.ends.left} - {beam.ends.right}"
         notes.append(f"the ends, {ends}, are left out; write a .toml or .xlsx to keep them")
     return tuple(notes)
-
-
-def read_station_csv(path: Path) -> dict[str, Any]:
-    """Return the table `[beam]` of stations in CSV, columns of a hull among them.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read.
-    """
-    table = beam_table(path, read_csv(path, KNOWN))
-    if found := _INTERPOLATION.search(path.read_text(encoding="utf-8-sig")[:2000]):
-        table["interpolation"] = found[1]
-    return table
-
-
-def beam_table(path: Path, columns: Mapping[str, list[float]]) -> dict[str, Any]:
-    """Return the table `[beam]` of columns of stations; its name is the file's."""
-    return {"name": path.stem[:200] or "beam", "stations": dict(columns)}
-
-
-def without_hull(table: dict[str, Any]) -> tuple[dict[str, Any], Hull]:
-    """Return a table `[beam]` with what a beam has a use for, and the columns of a hull."""
-    stations = table["stations"]
-    kept = {name: column for name, column in stations.items() if name not in HULL}
-    if len(kept) == len(stations) or "x" not in stations:
-        return {**table, "stations": kept}, {}
-    names = [name for name in stations if name == "x" or name in HULL]
-    return {**table, "stations": kept}, {name: np.array(stations[name]) for name in names}

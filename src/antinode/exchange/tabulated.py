@@ -21,8 +21,6 @@ PIECES = 16
 """Into which an interval is divided where N is a curve."""
 PROPERTIES = COLUMNS[1:]
 """Columns of a beam's stations beside x."""
-HULL = ("radius", "wall")
-"""Columns that a vehicle's stations have besides: no beam needs them, a table keeps them."""
 Hull = Mapping[str, Array]
 """Columns of the hull with the `x` [m] that they stand at; empty if there are none."""
 

@@ -2,7 +2,7 @@
 
 The sheet `stations` has the columns of a CSV file. `beam` has keys and values; `point_masses`,
 `springs` and `joints` have one row each. Results stand in `modes` and in one sheet for each
-component of the shapes. Only the first group is read again.
+component of the shapes. Only the first group is read again, by `beam/workbook.py`.
 """
 
 from __future__ import annotations
@@ -17,32 +17,15 @@ import numpy as np
 
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES
+from antinode.beam.workbook import ATTACHED, KEYS
 from antinode.errors import InputError
 from antinode.extras import import_extra
-from antinode.inputs.reading import COLUMN_UNITS, MOST_ROWS, Row, read_bytes, station_columns
-from antinode.inputs.units import unit_factor
+from antinode.inputs.reading import COLUMN_UNITS
 from antinode.modes.result import ModalResult
 from antinode.show.dataset import modal_table
-from antinode.text import nearest, short
 
 from .beam_toml import attachment_tables, beam_tables, head_tables
-from .station_csv import KNOWN, beam_table
 from .tabulated import Hull, tabulate
-
-MOST_BYTES = 20_000_000
-_MOST_COLUMNS = 100
-_MOST_CELLS = 1_000_000
-ENDS = ("left", "right", "left_axial", "right_axial")
-LOADS = ("gravity", "offset_weight")
-KEYS = ("name", "interpolation", *ENDS, *LOADS)
-"""Keys of the sheet `beam`."""
-ATTACHED = {
-    "point_masses": {"x": "m", "mass": "kg", "rotary_inertia": "kg m^2", "offset": "m"},
-    "springs": {"x": "m", "translational": "N/m", "rotational": "N m/rad", "axial": "N/m"},
-    "joints": {"x": "m", "rotational": "rad/(N m)", "axial": "m/N"},
-    "point_forces": {"x": "m", "force": "N"},
-}
-"""Sheets of attachments and forces: columns with their units."""
 
 
 def write_workbook(
@@ -129,115 +112,3 @@ def _fill_shapes(book: Any, result: ModalResult) -> None:
                 header = ["x [m]", *(f"{mode.name}: {symbol} [{unit}]" for mode in modes)]
                 table = np.stack([result.x, *(m.states[:, index] for m in modes)], axis=1)
                 _fill(book, symbol, [header, *table.tolist()])
-
-
-def read_workbook(path: Path) -> dict[str, Any]:
-    """Return the table `[beam]` of the sheet `stations`, or the first one, and of the others.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read.
-    """
-    sheets = _sheets(path)
-    name = "stations" if "stations" in sheets else next(iter(sheets), "")
-    table = beam_table(path, station_columns(sheets.get(name, []), KNOWN, path))
-    head = _head(sheets.get("beam", []), path)
-    for sheet in ATTACHED:
-        if sheet in sheets:
-            head[sheet] = _attached(sheets[sheet], sheet, path)
-    if "point_forces" in head:
-        head.setdefault("loads", {})["point_forces"] = head.pop("point_forces")
-    return {**table, **head}
-
-
-def _sheets(path: Path) -> dict[str, list[Row]]:
-    """Return the rows of the sheets that hold something of a beam, as text."""
-    content = io.BytesIO(read_bytes(path, MOST_BYTES, "a workbook"))
-    openpyxl = import_extra("openpyxl", "exchange")
-    try:
-        book = openpyxl.load_workbook(content, read_only=True, data_only=True)
-        wanted = [n for n in ("stations", "beam", *ATTACHED) if n in book.sheetnames]
-        if "stations" not in wanted:
-            wanted = [*book.sheetnames[:1], *wanted]
-        sheets = {name: _rows(book[name], f"{path}: sheet {short(name)}") for name in wanted}
-        book.close()
-    except InputError:
-        raise
-    except Exception as error:  # openpyxl lets errors of zip, XML and its own descriptors through
-        raise InputError(
-            f"{path}: this is not a readable workbook ({type(error).__name__}); save it as .xlsx "
-            "again, or write a .csv"
-        ) from error
-    return sheets
-
-
-def _rows(sheet: Any, where: str) -> list[Row]:
-    found: list[Row] = []
-    cells = 0
-    for line, values in enumerate(sheet.iter_rows(max_col=_MOST_COLUMNS, values_only=True), 1):
-        texts = [_text(value) for value in values]
-        cells += len(texts)
-        while texts and not texts[-1]:
-            texts.pop()
-        if cells > _MOST_CELLS or len(found) > MOST_ROWS:
-            raise InputError(f"{where} has more than {MOST_ROWS} rows; give a coarser table")
-        if texts and not texts[0].startswith("#"):
-            found.append(Row(line, texts))
-    width = len(found[0].cells) if found else 0
-    return [Row(r.line, r.cells + [""] * (width - len(r.cells))) for r in found]
-
-
-def _text(value: object) -> str:
-    if value is None:
-        return ""
-    return repr(value) if isinstance(value, float) else str(value).strip()
-
-
-def _head(rows: list[Row], path: Path) -> dict[str, Any]:
-    """Return name, interpolation, ends and loads from the sheet `beam`."""
-    pairs = {row.cells[0]: row.cells[1] for row in rows[1:] if len(row.cells) > 1 and row.cells[1]}
-    for key in pairs:
-        if key not in KEYS:
-            raise InputError(f"{path}: sheet beam: unknown key {short(key)}; {nearest(key, KEYS)}")
-    head: dict[str, Any] = {k: v for k, v in pairs.items() if k not in (*ENDS, *LOADS)}
-    if ends := {key: value for key, value in pairs.items() if key in ENDS}:
-        head["ends"] = ends
-    loads: dict[str, Any] = {key: value for key, value in pairs.items() if key in LOADS}
-    if "offset_weight" in loads:
-        loads["offset_weight"] = loads["offset_weight"].lower() in ("true", "1", "1.0")
-    return {**head, "loads": loads} if loads else head
-
-
-def _attached(rows: list[Row], sheet: str, path: Path) -> list[dict[str, Any]]:
-    """Return the rows of a sheet of attachments as tables of a beam file, SI."""
-    where = f"{path}: sheet {sheet}"
-    if not rows:
-        return []
-    columns = [_column(cell, ATTACHED[sheet], where) for cell in rows[0].cells]
-    tables = []
-    for row in rows[1:]:
-        table = {}
-        for (name, factor), cell in zip(columns, row.cells, strict=False):
-            if cell:
-                table[name] = _value(cell, factor, f"{where}, row {row.line}, column {name}")
-        tables.append(table)
-    return tables
-
-
-def _column(cell: str, units: dict[str, str], where: str) -> tuple[str, float]:
-    name, bracket, unit = cell.partition("[")
-    name = name.strip()
-    if name not in units:
-        raise InputError(f"{where}: unknown column {short(name)}; {nearest(name, list(units))}")
-    try:
-        return name, unit_factor(unit.rstrip("] "), units[name]) if bracket else 1.0
-    except ValueError as error:
-        raise InputError(f"{where}: column {name}: {error}; write e.g. [{units[name]}]") from error
-
-
-def _value(cell: str, factor: float, where: str) -> float:
-    try:
-        return float(cell) * factor
-    except ValueError:
-        raise InputError(f"{where}: received {short(cell)}; give a number") from None

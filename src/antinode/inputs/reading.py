@@ -255,9 +255,14 @@ def station_columns(rows: list[Row], columns: Sequence[str], path: Path) -> dict
     }
 
 
+def read_csv_text(path: Path) -> str:
+    """Return a CSV file as text."""
+    return _read_text(path, MOST_CSV_BYTES, "a CSV table")
+
+
 def read_cells(path: Path) -> list[Row]:
     """Read the cells of any CSV table, header first; empty rows and ``#`` lines are left out."""
-    return list(_rows(_read_text(path, MOST_CSV_BYTES, "a CSV table"), path))
+    return list(_rows(read_csv_text(path), path))
 
 
 _NEEDED = "it needs a header such as 'x [m], mass_per_length [kg/m], ...' and two rows or more"

@@ -6,7 +6,7 @@ import shlex
 import time
 from pathlib import Path
 
-from antinode.beam.file import BeamFile, load_beam
+from antinode.beam.file import TABLES, BeamFile, load_beam
 from antinode.errors import InputError
 from antinode.inputs.reading import read_toml
 from antinode.modes.result import ModalResult
@@ -61,7 +61,7 @@ def make_report(
     tolerance: float | None = None,
 ) -> tuple[Document, list[str]]:
     """Return the report on whatever a file holds, and its warnings."""
-    tables = read_toml(file)
+    tables = {"beam": {}} if file.suffix.lower() in TABLES else read_toml(file)
     if not {"vehicle", "beam", "case"} & set(tables):
         raise InputError(
             f"{file}: there is neither a table [vehicle] nor [beam], nor the case of a study in "
