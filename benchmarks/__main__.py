@@ -74,10 +74,10 @@ def step():
     lanes.fill_table(*own, starts_at, marks, table)
     state = np.zeros(64)
     state[48:56] = np.linspace(100, 1.2e5, 8)
-    times = 200
+    times = 1000
 
     def ours():
-        lanes.repeat(table, state, pieces, times)
+        library().call("repeat", table, state, pieces, times)
 
     ours()
     expected = state[:48].copy()

@@ -1,31 +1,24 @@
 """Options of the tests."""
 
 import os
-import subprocess
-import sys
 
 import pytest
 
 
 def pytest_addoption(parser):
     parser.addoption(
-        "--compiled", action="store_true", help="load the compiled kernel first: all solves use it"
+        "--numpy", action="store_true", help="let numpy solve where no backend is asked for"
     )
 
 
 def pytest_configure(config):
-    """Have the kernel compiled once, by a process of its own, before any worker starts.
+    """Have the compiled code made before any worker starts, so that no test waits for it."""
+    from antinode.modes import backends
 
-    Numba's code from memory and from its cache differ in the last digits of what they compute;
-    tests that compare processes to the bit need the same one everywhere.
-    """
     if not hasattr(config, "workerinput"):
-        code = "from antinode.modes.kernel import kernel; kernel()"
-        subprocess.run([sys.executable, "-c", code], check=True)
-    if config.getoption("--compiled"):
-        from antinode.modes.kernel import kernel
-
-        kernel()
+        backends.choose("numba")
+    if config.getoption("--numpy"):
+        backends.AUTO = "numpy"
 
 
 def pytest_sessionfinish(session):

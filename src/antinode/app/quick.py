@@ -1,7 +1,7 @@
 """Bending frequencies and shapes fast enough for a moving slider: some milliseconds.
 
 Frequencies are the compiled ones, to 1e-4; shapes are those of one chain at these frequencies.
-Modes that coincide, and all while the kernel is not compiled, go through `solve_modes` instead.
+Modes that coincide go through `solve_modes` instead.
 """
 
 from __future__ import annotations
@@ -14,9 +14,8 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
-from antinode.modes.batch import BeamBatch, solve_many
+from antinode.modes.backends import choose
 from antinode.modes.frequencies import natural_frequencies
-from antinode.modes.kernel import shapes_for
 from antinode.modes.solve import solve_modes
 
 QUICK_FAMILY = BENDING
@@ -25,7 +24,6 @@ TOLERANCE = 1e-4
 _POINTS = 121
 _REFINEMENT = 2  # of the chain whose shapes are shown
 _PARTED = 1e-6  # relative distance of omega^2 below which shapes need `solve_modes`
-_ready = threading.Event()
 
 
 class Quick(NamedTuple):
@@ -50,19 +48,8 @@ class Quick(NamedTuple):
 
 
 def warm_up() -> None:
-    """Have the kernel compiled in the background; until then everything works without it."""
-    threading.Thread(target=_warm_up, name="antinode-kernel", daemon=True).start()
-
-
-def _warm_up() -> None:
-    one = np.ones(4)
-    solve_many(BeamBatch(one, one, one, modes=1))
-    _ready.set()
-
-
-def wait_until_warm(timeout: float = 120.0) -> bool:
-    """Wait for the kernel [s]; tell whether it is there."""
-    return _ready.wait(timeout)
+    """Load the compiled code in the background, before the first page asks for it."""
+    threading.Thread(target=choose, name="antinode-kernel", daemon=True).start()
 
 
 def quick_omega2(beam: Beam, modes: int) -> Array:
@@ -78,15 +65,12 @@ def quick_modes(beam: Beam, modes: int) -> Quick:
     ComputationError
         If they cannot be computed.
     """
-    if not _ready.is_set():
-        return _full_modes(beam, modes)
     found = natural_frequencies(beam, modes, tolerance=TOLERANCE)
     if np.any(np.diff(found.omega2) <= _PARTED * np.abs(found.omega2[1:])):
         return _full_modes(beam, modes)
     chain = beam.chain(QUICK_FAMILY, _REFINEMENT).cut_at(np.linspace(0.0, beam.length, _POINTS))
     with np.errstate(all="ignore"):
-        solver = shapes_for(len(chain.length), modes)
-        states = solver.mode_states(chain, found.omega2, np.ones(modes, dtype=np.int64))
+        states = choose().mode_states(chain, found.omega2, np.ones(modes, dtype=np.int64))
     return Quick(found.omega2, found.error_omega2, beam.x[0] + chain.nodes, _scaled(states))
 
 

@@ -398,10 +398,10 @@ def reproduce(
 
 def _solve(problem: Case | BeamFile, solver: Solver) -> ModalResult:
     """Solve a problem, by the settings of its file but for those given on the command line."""
-    from antinode.modes.solve import solve_modes
+    from antinode.modes.solve import solve_one
 
     settings = problem.solve.overridden(modes=solver.modes, tolerance=solver.tolerance)
-    return solve_modes(
+    return solve_one(
         problem,
         settings.modes,
         tolerance=settings.tolerance,

@@ -117,10 +117,10 @@ def _check(request: Request, how_in: Format, how_out: Format) -> None:
 
 
 def _solved(found: Found, number: int | None) -> Modes:
-    from antinode.modes.solve import solve_modes
+    from antinode.modes.solve import solve_one
 
     solve = found.solve.overridden(modes=number)
-    result = solve_modes(found.beam, solve.modes, tolerance=solve.tolerance, unloaded=True)
+    result = solve_one(found.beam, solve.modes, tolerance=solve.tolerance, unloaded=True)
     return Modes(result, result.to_dict())
 
 

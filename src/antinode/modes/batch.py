@@ -10,7 +10,6 @@ index. Each beam starts from the roots of the one before, so that a sweep is bes
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -18,12 +17,22 @@ from antinode.arrays import Array, Integers
 from antinode.beam.ends import FREE, Ends
 from antinode.errors import InputError
 from antinode.riccati.chain import Chain
+from antinode.riccati.chains import ChainRoots, Chains
 from antinode.riccati.laws import BENDING
-from antinode.riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
+from antinode.riccati.reasons import (
+    BY_ITSELF,
+    CLUSTERED,
+    INVALID,
+    NOT_BRACKETED,
+    NOT_FINITE,
+    OUT_OF_REACH,
+    PAST_BUCKLING,
+)
+from antinode.riccati.roots import CountingError, Eigenvalue, check_certificate
 from antinode.riccati.shapes import split_for
 
+from .backends import Backend, BackendName, choose
 from .guesses import guess_omega2
-from .kernel import kernel as compiled_kernel
 from .rigid import rigid_modes_of, translates
 
 REASONS = (
@@ -39,8 +48,7 @@ REASONS = (
 
 _WIDTH = 0.98e-10  # of a bracket before its rounding, relative in omega^2
 _ROUNDING = 64 * np.finfo(float).eps
-_NOT_BRACKETED, _NOT_FINITE, _CLUSTERED, _PAST_BUCKLING = 2, 3, 5, 6
-_ALONE = _NOT_BRACKETED, _CLUSTERED
+_ALONE = NOT_BRACKETED, CLUSTERED, BY_ITSELF
 
 
 @dataclass(frozen=True)
@@ -165,83 +173,63 @@ def _hertz(omega2: Array) -> Array:
     return np.asarray(np.sqrt(known) / (2 * np.pi))
 
 
-def solve_many(batch: BeamBatch) -> BatchResult:
+def solve_many(batch: BeamBatch, *, backend: BackendName = "auto") -> BatchResult:
     """Compute the natural frequencies of every beam of a batch, with brackets and counts.
 
     Parameters
     ----------
     batch : BeamBatch
+    backend : {"auto", "numpy", "numba"}
+        What solves: compiled code, or numpy, which takes some milliseconds a beam. "auto" is numba.
 
     Returns
     -------
     BatchResult
         A beam that fails has NaN and a reason; the others are not touched by it.
     """
-    kernel = compiled_kernel()
-    beams, modes = len(batch), batch.modes
-    omega2, low, high, rounding = np.zeros((4, beams, modes))
-    counts = np.zeros((beams, modes, 2), dtype=np.int64)
-    reason, evaluations = _solve(kernel, batch, (omega2, low, high, counts, rounding))
+    solver = choose(backend)
+    found = _solve(solver, batch)
+    omega2, low, high, counts, rounding, reason, evaluations = found
     if translates(batch.ends):  # past buckling its omega^2 = 0 lies above an elastic mode
-        reason[(reason == 0) & (omega2[:, 0] < 0)] = _NOT_BRACKETED
+        reason[(reason == 0) & (omega2[:, 0] < 0)] = NOT_BRACKETED
     if not np.isfinite(high).all():
-        reason[(reason == 0) & ~np.isfinite(high).all(axis=1)] = _NOT_FINITE
+        reason[(reason == 0) & ~np.isfinite(high).all(axis=1)] = NOT_FINITE
     if reason.any():
         for row in np.flatnonzero(np.isin(reason, _ALONE)):
-            reason[row] = _alone(kernel, batch, int(row), (omega2, low, high, rounding), counts)
+            reason[row] = _alone(solver, batch, int(row), found)
         failed = reason != 0
         omega2[failed], low[failed], high[failed], counts[failed] = np.nan, np.nan, np.nan, -1
-    bracket = np.empty((beams, modes, 2))
+    bracket = np.empty((*omega2.shape, 2))
     low = np.subtract(low, rounding, out=bracket[..., 0])
     high = np.add(high, rounding, out=bracket[..., 1])
     if (low[:, 1:] <= high[:, :-1]).any():
         _share(low, high, counts)
-    reason[omega2[:, 0] < 0] = _PAST_BUCKLING
+    reason[omega2[:, 0] < 0] = PAST_BUCKLING
     error = np.maximum(high - omega2, omega2 - low)
     return BatchResult(omega2, bracket, counts, error, reason, evaluations)
 
 
-def _solve(
-    kernel: Any, batch: BeamBatch, results: tuple[Array, Array, Array, Integers, Array]
-) -> tuple[Integers, Integers]:
+def _solve(solver: Backend, batch: BeamBatch) -> ChainRoots:
     """Solve chain after chain; where loads alone vary, by guesses from a few of them."""
-    tables = batch.length, batch.mass_per_length, batch.bending_stiffness
-    ends = np.array([kernel.ENDS[batch.ends.left], kernel.ENDS[batch.ends.right]])
-    below = rigid_modes_of(batch.ends)
+    below, chains = rigid_modes_of(batch.ends), _chains(batch)
     guess = None
-    if batch._one_structure:
+    if batch._one_structure and solver.name != "numpy":
         guess = guess_omega2(batch.axial_force, lambda N: _exact(batch, N))
     if guess is None:
-        return _all_rows(kernel, tables, batch.axial_force, ends, below, results)
-    own = tuple(values[0] for values in tables)
-    reason, total = kernel.certify_guesses(
-        own, batch.axial_force, ends, below, _WIDTH, guess, results
-    )
-    again = np.flatnonzero(reason)
+        return solver.solve_chains(chains, below, batch.modes, _WIDTH)
+    found = solver.certify_guesses(chains, guess, below, _WIDTH)
+    again = np.flatnonzero(found.reason)
     if len(again):
-        part = tuple(values[again] for values in results)
-        rest = (values[:1] if len(values) == 1 else values[again] for values in tables)
-        reason[again], more = _all_rows(
-            kernel, tuple(rest), batch.axial_force[again], ends, below, part
-        )
-        total[again] += more
-        for values, found in zip(results, part, strict=True):
-            values[again] = found
-    return reason, total
+        part = solver.solve_chains(chains.some(again), below, batch.modes, _WIDTH)
+        part.evaluations[:] += found.evaluations[again]
+        for values, others in zip(found, part, strict=True):
+            values[again] = others
+    return found
 
 
-def _all_rows(
-    kernel: Any,
-    tables: tuple[Array, ...],
-    force: Array,
-    ends: Integers,
-    below: int,
-    results: tuple[Any, ...],
-) -> tuple[Integers, Integers]:
-    for table in (*tables, force):
-        table.flags.writeable = False  # as the kernel was compiled
-    reason, total = kernel.solve_chains(*tables, force, ends, below, _WIDTH, results)
-    return reason, total
+def _chains(batch: BeamBatch) -> Chains:
+    h, m, EI, N = (getattr(batch, name) for name in _ARRAYS)
+    return Chains(BENDING, h, m, EI, N, batch.ends.left, batch.ends.right)
 
 
 def _exact(batch: BeamBatch, force: Array) -> Array:
@@ -252,44 +240,47 @@ def _exact(batch: BeamBatch, force: Array) -> Array:
     return solve_many(some).omega2
 
 
-def _alone(
-    kernel: Any, batch: BeamBatch, row: int, results: tuple[Array, ...], counts: Integers
-) -> int:
+def _alone(solver: Backend, batch: BeamBatch, row: int, results: ChainRoots) -> int:
     """Solve a beam by itself; return the reason if it cannot be solved.
 
     Modes that nearly coincide are parted by frames; past buckling an elastic mode lies below the
     translation, whose omega^2 = 0 is set aside.
     """
-    below = rigid_modes_of(batch.ends)
-    h = batch.length[row if len(batch.length) > 1 else 0]
-    m, EI, N = (getattr(batch, name)[row] for name in _ARRAYS[1:])
-    chain = Chain(BENDING, h, BENDING.named(m, EI, N), batch.ends.left, batch.ends.right)
-    zeros = below if not np.any(N) else int(translates(batch.ends))
+    below, chain = rigid_modes_of(batch.ends), _chains(batch)[row]
+    if not _is_valid(chain):
+        return INVALID
+    zeros = below if not np.any(chain.axial_force) else int(translates(batch.ends))
     try:
-        found = kernel.find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
-        if found is None or not check_certificate(found):
-            found = find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
+        found = solver.find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
         if not check_certificate(found):
-            return _NOT_BRACKETED
+            return NOT_BRACKETED
         others = [value for value in found if value.omega2 != 0.0]
         moved = below - (len(found) - len(others))  # the rigid modes that N moves off zero
         wanted = others[moved : moved + batch.modes]
-        rounding = _rounding_by_shapes(kernel, chain, wanted)
+        rounding = _rounding_by_shapes(solver, chain, wanted)
+    except FloatingPointError:
+        return OUT_OF_REACH
     except (CountingError, ArithmeticError):
-        return _NOT_BRACKETED
-    columns = [v.omega2 for v in wanted], *zip(*(v.bracket for v in wanted), strict=True), rounding
-    for values, column in zip(results, columns, strict=True):
-        values[row] = np.array(column)
-    counts[row] = [v.counts for v in wanted]
+        return NOT_BRACKETED
+    results.omega2[row] = [v.omega2 for v in wanted]
+    results.low[row], results.high[row] = np.transpose([v.bracket for v in wanted])
+    results.counts[row], results.rounding[row] = [v.counts for v in wanted], rounding
     return 0
 
 
-def _rounding_by_shapes(kernel: Any, chain: Chain, found: list[Eigenvalue]) -> Array:
+def _is_valid(chain: Chain) -> bool:
+    """Tell whether lengths, masses and stiffnesses are positive, and all is finite."""
+    structure = np.concatenate([chain.length, chain.mass, chain.stiffness])
+    positive = np.all((structure > 0) & np.isfinite(structure))
+    return bool(positive and np.all(np.isfinite(chain.axial_force)))
+
+
+def _rounding_by_shapes(solver: Backend, chain: Chain, found: list[Eigenvalue]) -> Array:
     """Return the rounding of omega^2 [rad^2/s^2]: small against the energies that make it."""
     omega2 = np.array([value.omega2 for value in found])
     together = np.array([sum(other.bracket == v.bracket for other in found) for v in found])
     fine = split_for(chain, omega2)
-    energies = kernel.mode_energies(fine, kernel.mode_states(fine, omega2, together), omega2)
+    energies = solver.mode_energies(fine, solver.mode_states(fine, omega2, together), omega2)
     return np.asarray(_ROUNDING * energies.size / energies.mass)
 
 

@@ -2,16 +2,15 @@
 
     an.natural_frequencies(beam, modes=6).frequencies_hz
 
-Where the compiled kernel is loaded (by `solve_many`, a sweep, the app) a beam takes some ten
-microseconds for every hundred segments and frequency; elsewhere `solve_modes` computes the same in
-numpy. Beams that vary inside intervals are solved with steps halved each time; since the error
-falls as the fourth power of the steps, ``omega^2 + (omega^2 - omega^2 before) / 15`` is reported.
+Compiled, a beam takes some ten microseconds for every hundred segments and frequency; in numpy
+`solve_modes` computes the same. Beams that vary inside intervals are solved with steps halved each
+time; since the error falls as the fourth power of the steps, ``omega^2 + (omega^2 - omega^2
+before) / 15`` is reported.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from types import ModuleType
 
 import numpy as np
 
@@ -21,9 +20,11 @@ from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.beam.representation import LIMITS
 from antinode.errors import InputError
+from antinode.riccati.chains import Tables
 from antinode.riccati.points import Point
+from antinode.riccati.reasons import CERTIFIED
 
-from .kernel import kernel_if_worthwhile
+from .backends import Backend, BackendName, choose
 from .result import hertz
 from .rigid import rigid_modes, rigid_modes_of
 from .solve import HasBeam, solve_modes
@@ -71,7 +72,11 @@ class Frequencies:
 
 
 def natural_frequencies(
-    problem: Beam | HasBeam, modes: int = 6, *, tolerance: float = 1e-6
+    problem: Beam | HasBeam,
+    modes: int = 6,
+    *,
+    tolerance: float = 1e-6,
+    backend: BackendName = "auto",
 ) -> Frequencies:
     """Compute the natural frequencies of a beam in bending, certified, without shapes.
 
@@ -83,6 +88,8 @@ def natural_frequencies(
         Elastic modes 1 ... `modes`.
     tolerance : float
         Largest relative error of a frequency that is allowed to what varies inside segments.
+    backend : {"auto", "numpy", "numba"}
+        What solves: compiled code, or numpy, which takes some milliseconds. "auto" is numba.
 
     Returns
     -------
@@ -100,9 +107,8 @@ def natural_frequencies(
     if not 1e-12 <= tolerance <= 0.1:
         raise InputError(f"tolerance is {tolerance:g}; allowed are 1e-12 ... 0.1 (relative)")
     beam = problem if isinstance(problem, Beam) else _beam_of(problem)
-    compiled = kernel_if_worthwhile(len(beam.x), modes)
-    found = None if compiled is None else _by_kernel(compiled, beam, modes, tolerance)
-    return found or _by_modes(beam, modes, tolerance)
+    found = _directly(choose(backend), beam, modes, tolerance)
+    return found or _by_modes(beam, modes, tolerance, backend)
 
 
 @out_of_range_is_an_error()
@@ -110,8 +116,8 @@ def _beam_of(problem: HasBeam) -> Beam:
     return problem.beam()
 
 
-def _by_modes(beam: Beam, modes: int, tolerance: float) -> Frequencies:
-    result = solve_modes(beam, modes, tolerance=tolerance, families=(BENDING,))
+def _by_modes(beam: Beam, modes: int, tolerance: float, backend: BackendName) -> Frequencies:
+    result = solve_modes(beam, modes, tolerance=tolerance, families=(BENDING,), backend=backend)
     found = [mode for mode in result.modes if mode.number][:modes]
     return Frequencies(
         np.array([mode.omega2 for mode in found]),
@@ -122,21 +128,29 @@ def _by_modes(beam: Beam, modes: int, tolerance: float) -> Frequencies:
     )
 
 
-def _by_kernel(
-    compiled: ModuleType, beam: Beam, modes: int, tolerance: float
-) -> Frequencies | None:
+def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Frequencies | None:
     """Solve with steps halved until two extrapolated results agree; None where that fails."""
     held: tuple[str, str, tuple[Point, ...]] = beam.ends.left, beam.ends.right, ()
     rigid, acceleration, mass_left = rigid_modes_of(beam.ends), 0.0, _NOT_READ
     if beam.attachments or beam.axial_acceleration:
         held, rigid, acceleration, mass_left = _held_and_accelerated(beam)
-    tables = compiled.Tables(
-        *(beam.x, beam.mass_per_length, beam.bending_stiffness, beam.axial_force, acceleration),
-        *(mass_left, beam.interpolation == "log", LIMITS, *held),
+    left, right, points = held
+    tables = Tables(
+        x=beam.x,
+        mass=beam.mass_per_length,
+        stiffness=beam.bending_stiffness,
+        axial_force=beam.axial_force,
+        acceleration=acceleration,
+        mass_left=mass_left,
+        logarithmic=beam.interpolation == "log",
+        limits=LIMITS,
+        left=left,
+        right=right,
+        points=points,
     )
     refinement = max(1, (modes + rigid) // _MODES_PER_REFINEMENT)
-    found = compiled.solve_beam(tables, rigid, modes, refinement, float(tolerance), _WIDTH)
-    if found.reason != compiled.CERTIFIED or not np.isfinite(found.error).all():
+    found = solver.solve_beam(tables, rigid, modes, refinement, float(tolerance), _WIDTH)
+    if found is None or found.reason != CERTIFIED or not np.isfinite(found.error).all():
         return None
     if found.omega2[0] < 0 and "translation" in rigid_modes(beam, BENDING):
         return None  # its omega^2 = 0 lies above an elastic mode: indices do not tell them apart

@@ -13,7 +13,7 @@ from antinode.riccati.chain import Chain, omega2_scale
 from antinode.riccati.roots import Eigenvalue
 
 from .rigid import exact_zeros, rigid_modes
-from .solvers import COUNTING, Solver
+from .solvers import Solver
 
 ROUNDING = 64 * np.finfo(float).eps  # times the conditioning of an eigenvalue
 _MOST_SEGMENTS = 100_000
@@ -41,7 +41,7 @@ class Solved:
 
 
 def solve_family(
-    beam: Beam, family: FamilyName, modes: int, tolerance: float, solver: Solver = COUNTING
+    beam: Beam, family: FamilyName, modes: int, tolerance: float, solver: Solver
 ) -> Solved:
     """Refine until the estimated error of every wanted frequency is within the tolerance.
 
@@ -55,7 +55,8 @@ def solve_family(
     refinement = max(1, wanted // _MODES_PER_REFINEMENT)
     chain = beam.chain(family, refinement)
     smooth = smooth and _resolves_force(chain)
-    eigenvalues = COUNTING.find(chain, wanted, zeros=zeros).eigenvalues
+    counting = solver.counting
+    eigenvalues = counting.find(chain, wanted, zeros=zeros).eigenvalues
     levels = [_omega2(eigenvalues)]
     error = np.zeros(len(eigenvalues))
     warnings: list[str] = []
@@ -63,7 +64,7 @@ def solve_family(
         refinement *= 2
         chain, before = beam.chain(family, refinement), error
         expected = _expected(levels)
-        eigenvalues = COUNTING.find(chain, wanted, zeros=zeros, expected=expected).eigenvalues
+        eigenvalues = counting.find(chain, wanted, zeros=zeros, expected=expected).eigenvalues
         levels.append(_omega2(eigenvalues))
         error = _discretisation_error(levels[-3:])
         relative = _relative_error(chain, levels[-1], error)
@@ -77,7 +78,7 @@ def solve_family(
                     f"{tolerance:g}; see the errors, or ask for fewer modes or a larger tolerance"
                 )
             break
-    if solver.certificate == COUNTING.certificate:
+    if solver is counting:
         return Solved(chain, eigenvalues, error, warnings)
     found = solver.find(chain, wanted, zeros=zeros)
     unknown = np.full(len(found.eigenvalues), np.nan)

@@ -11,7 +11,7 @@ from antinode.riccati.chain import Chain
 from antinode.riccati.roots import Eigenvalue
 from antinode.riccati.shapes import Energies, propagate
 
-from .kernel import shapes_for
+from .backends import Backend
 from .result import Normalisation
 from .rigid import rigid_state
 
@@ -30,6 +30,7 @@ def output_grid(beam: Beam, modes: int) -> Array:
 
 
 def shapes(
+    solver: Backend,
     beam: Beam,
     chain: Chain,
     eigenvalues: list[Eigenvalue],
@@ -49,7 +50,6 @@ def shapes(
                 for c in free
             ]
         )
-        solver = shapes_for(len(chain.length), len(free))
         states[:, free] = solver.mode_states(chain, omega2, clusters)
     return states
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -22,12 +22,12 @@ from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import ComputationError, InputError
 from antinode.riccati.chain import omega2_scale
 
-from .kernel import shapes_for
+from .backends import Backend, BackendName, choose, for_one
 from .naming import name_modes, with_joint_brackets
 from .refinement import ROUNDING, Solved, solve_family
 from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .shapes import estimate_model_errors, normalising_factors, on_grid, output_grid, shapes
-from .solvers import solver_of
+from .solvers import Solver, solver_of
 from .warnings import result_warnings
 
 
@@ -49,6 +49,7 @@ def solve_modes(
     method: Method = "riccati",
     normalisation: Normalisation = "amplitude",
     unloaded: bool = False,
+    backend: BackendName = "auto",
 ) -> ModalResult:
     """Compute natural frequencies, modes and internal-force modes of a beam.
 
@@ -68,6 +69,9 @@ def solve_modes(
         Largest displacement 1, or unit modal mass.
     unloaded : bool
         Also solve the beam without axial force, to tell what the force does to each mode.
+    backend : {"auto", "numpy", "numba"}
+        What solves chain after chain: compiled code, or numpy, which is slower by some milliseconds
+        for every hundred segments and mode, and needs no compiler once an install. "auto" is numba.
 
     Returns
     -------
@@ -84,7 +88,7 @@ def solve_modes(
         raise InputError(f"modes is {modes}; allowed are 1 ... 500 for each family")
     if not 1e-12 <= tolerance <= 0.1:
         raise InputError(f"tolerance is {tolerance:g}; allowed are 1e-12 ... 0.1 (relative)")
-    solver = solver_of(method)
+    solver = solver_of(method, choose(backend))
     beam = problem if isinstance(problem, Beam) else problem.beam()
     chosen = tuple(families or beam.families)
     grid = output_grid(beam, modes)
@@ -94,12 +98,14 @@ def solve_modes(
     warnings: list[str] = []
     for family in chosen:
         solved = solve_family(beam, family, modes, tolerance, solver)
-        named, solutions[family] = _modes_of(beam, solved, grid, modes, normalisation)
+        named, solutions[family] = _modes_of(
+            solver.backend, beam, solved, grid, modes, normalisation
+        )
         found += named
         segments[family] = len(solved.chain.length)
         warnings += solved.warnings
     if unloaded:
-        found = _compare_unloaded(beam, found, modes, tolerance)
+        found = _compare_unloaded(solver.counting, beam, found, modes, tolerance)
     if not all(np.isfinite(mode.omega2) for mode in found):
         raise ComputationError("a frequency is no finite number; check the units of the input")
     warnings += result_warnings(beam, found)
@@ -116,8 +122,23 @@ def solve_modes(
     )
 
 
+@out_of_range_is_an_error()
+def solve_one(problem: Beam | HasBeam, modes: int = 6, **settings: Any) -> ModalResult:
+    """Compute what `solve_modes` does, for a command that solves one problem and ends.
+
+    A small one is solved by numpy, so that a fresh install answers before anything is compiled.
+    """
+    beam = problem if isinstance(problem, Beam) else problem.beam()
+    return solve_modes(beam, modes, backend=for_one(len(beam.x), modes), **settings)
+
+
 def _modes_of(
-    beam: Beam, solved: Solved, grid: Array, modes: int, normalisation: Normalisation
+    backend: Backend,
+    beam: Beam,
+    solved: Solved,
+    grid: Array,
+    modes: int,
+    normalisation: Normalisation,
 ) -> tuple[list[Mode], Solution]:
     """Name the eigenvalues, attach shapes and everything that follows from them."""
     family = solved.chain.family
@@ -129,8 +150,8 @@ def _modes_of(
     ]
     chain = solved.chain.cut_at(np.unique(grid - grid[0]))
     omega2 = np.array([solved.eigenvalues[k].omega2 for k in keep])
-    states = shapes(beam, chain, solved.eigenvalues, keep, names)
-    energies = shapes_for(len(chain.length), len(keep)).mode_energies(chain, states, omega2)
+    states = shapes(backend, beam, chain, solved.eigenvalues, keep, names)
+    energies = backend.mode_energies(chain, states, omega2)
     scale = normalising_factors(states, energies.mass, normalisation)
     states = states * scale[:, None]
     at_grid = on_grid(chain, states, omega2, grid - grid[0])
@@ -178,10 +199,12 @@ def _mode(
     )
 
 
-def _compare_unloaded(beam: Beam, found: list[Mode], modes: int, tolerance: float) -> list[Mode]:
+def _compare_unloaded(
+    solver: Solver, beam: Beam, found: list[Mode], modes: int, tolerance: float
+) -> list[Mode]:
     """Attach to every mode its omega^2 without axial force: its own where N does not matter."""
     moved = {m.family for m in found if FAMILIES[m.family].law.has_axial_force}
-    free = {name: _unloaded(beam, name, found, modes, tolerance) for name in moved}
+    free = {name: _unloaded(solver, beam, name, found, modes, tolerance) for name in moved}
     return [
         replace(m, unloaded_omega2=free[m.family].get(m.name) if m.family in free else m.omega2)
         for m in found
@@ -189,11 +212,16 @@ def _compare_unloaded(beam: Beam, found: list[Mode], modes: int, tolerance: floa
 
 
 def _unloaded(
-    beam: Beam, family: FamilyName, found: list[Mode], modes: int, tolerance: float
+    solver: Solver,
+    beam: Beam,
+    family: FamilyName,
+    found: list[Mode],
+    modes: int,
+    tolerance: float,
 ) -> dict[str, float]:
     """Return omega^2 without axial force by the names of the modes of a family."""
     most = max(m.number for m in found if m.family == family)
     free = beam.without_axial_force()
-    solved = solve_family(free, family, max(modes, most), tolerance)
+    solved = solve_family(free, family, max(modes, most), tolerance, solver)
     names = name_modes(free, family, solved.eigenvalues)
     return {name: value.omega2 for (name, _), value in zip(names, solved.eigenvalues, strict=True)}

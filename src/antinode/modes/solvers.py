@@ -13,9 +13,9 @@ from antinode.arrays import Array
 from antinode.errors import ComputationError, InputError
 from antinode.riccati.chain import Chain
 from antinode.riccati.literal import find_eigenvalues_tmm
-from antinode.riccati.roots import CountingError, Eigenvalue, check_certificate, find_eigenvalues
+from antinode.riccati.roots import CountingError, Eigenvalue, check_certificate
 
-from .kernel import kernel_if_worthwhile
+from .backends import Backend
 from .result import Method
 
 Certificate = Literal["counts", "none"]
@@ -38,9 +38,19 @@ class Solver(ABC):
     certificate : {"counts", "none"}
         What proves that the list has no gap and nothing too many; an error is stated only where
         something does.
+    backend : Backend
+        What evaluates chains.
+    counting : Solver
+        The one that certifies, by the same backend.
     """
 
     certificate: ClassVar[Certificate]
+    backend: Backend
+
+    @property
+    @abstractmethod
+    def counting(self) -> Counting:
+        """What brackets eigenvalues by counts."""
 
     @abstractmethod
     def find(
@@ -65,17 +75,27 @@ class Solver(ABC):
         """
 
 
+@dataclass(frozen=True)
 class Counting(Solver):
     """The Riccati form with counts (equations 67-80; Wittrick and Williams, 1971)."""
 
+    backend: Backend
     certificate = "counts"
+
+    @property
+    def counting(self) -> Counting:
+        """Itself."""
+        return self
 
     def find(
         self, chain: Chain, wanted: int, *, zeros: int, expected: Array | None = None
     ) -> Found:
         """Bracket every eigenvalue by counts."""
+        width = 1e-10 if len(chain.length) <= _LONG else 2e-10
         try:
-            found = self._bracketed(chain, wanted, zeros, expected)
+            found = self.backend.find_eigenvalues(
+                chain, wanted, zeros=zeros, width=width, expected=expected
+            )
         except (CountingError, FloatingPointError) as error:
             raise ComputationError(
                 f"the {chain.law.name} eigenvalues could not be certified: {error}; "
@@ -87,28 +107,25 @@ class Counting(Solver):
             )
         return Found(found)
 
-    def _bracketed(
-        self, chain: Chain, wanted: int, zeros: int, expected: Array | None
-    ) -> list[Eigenvalue]:
-        width = 1e-10 if len(chain.length) <= _LONG else 2e-10
-        compiled = kernel_if_worthwhile(len(chain.length), wanted)
-        if compiled is not None:
-            fast = compiled.find_eigenvalues(chain, wanted, zeros=zeros, width=width)
-            if fast is not None and check_certificate(fast):
-                return list(fast)
-        return find_eigenvalues(chain, wanted, zeros=zeros, width=width, expected=expected)
 
-
+@dataclass(frozen=True)
 class TransferMatrices(Solver):
     """The determinant of equation 66, scanned as its users do it: for comparison."""
 
+    backend: Backend
     certificate = "none"
+
+    @property
+    def counting(self) -> Counting:
+        """What it is compared with."""
+        return Counting(self.backend)
 
     def find(
         self, chain: Chain, wanted: int, *, zeros: int, expected: Array | None = None
     ) -> Found:
         """Scan as far as the counts say that the eigenvalues reach, and compare with them."""
-        certified = COUNTING.find(chain, wanted, zeros=zeros, expected=expected).eigenvalues
+        counted = self.counting.find(chain, wanted, zeros=zeros, expected=expected)
+        certified = counted.eigenvalues
         lowest, highest = certified[0].omega2, certified[-1].omega2
         below = min(1.5 * lowest, -1e-3 * abs(highest))
         found = find_eigenvalues_tmm(
@@ -126,12 +143,14 @@ class TransferMatrices(Solver):
         return Found(found, (warning,))
 
 
-COUNTING = Counting()
-SOLVERS: dict[Method, Solver] = {"riccati": COUNTING, "tmm": TransferMatrices()}
+SOLVERS: dict[Method, type[Counting] | type[TransferMatrices]] = {
+    "riccati": Counting,
+    "tmm": TransferMatrices,
+}
 
 
-def solver_of(method: Method) -> Solver:
-    """Return the solver of a method's name.
+def solver_of(method: Method, backend: Backend) -> Solver:
+    """Return the solver of a method's name, on a backend.
 
     Raises
     ------
@@ -140,4 +159,4 @@ def solver_of(method: Method) -> Solver:
     """
     if method not in SOLVERS:
         raise InputError(f"method is {method!r}; allowed are {', '.join(map(repr, SOLVERS))}")
-    return SOLVERS[method]
+    return SOLVERS[method](backend)

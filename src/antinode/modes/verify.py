@@ -16,7 +16,7 @@ from antinode.beam.beam import Beam
 from antinode.beam.ends import End, Ends
 from antinode.beam.families import BENDING, LONGITUDINAL
 
-from .solve import solve_modes
+from .solve import solve_one
 
 ALLOWED = 1e-10
 """Largest relative error of a frequency that passes."""
@@ -111,7 +111,7 @@ def _uniform(segments: int, ends: Ends, axial_force: float = 0.0) -> Beam:
 
 
 def _compare(name: str, formula: str, beam: Beam, omega2: np.ndarray) -> Check:
-    result = solve_modes(beam, len(omega2), families=(BENDING,))
+    result = solve_one(beam, len(omega2), families=(BENDING,))
     found = np.array([m.omega2 for m in result.modes if m.number])
     worst = float(np.max(np.abs(found / omega2 - 1))) / 2
     return Check(name, formula, len(omega2), worst)
@@ -133,7 +133,7 @@ def _divergent_column() -> Check:
 
 
 def _bar() -> Check:
-    result = solve_modes(_uniform(100, Ends()), 10, families=(LONGITUDINAL,))
+    result = solve_one(_uniform(100, Ends()), 10, families=(LONGITUDINAL,))
     found = np.array([m.omega2 for m in result.modes if m.number])
     exact = (np.arange(1, 11) * math.pi) ** 2
     worst = float(np.max(np.abs(found / exact - 1))) / 2

@@ -20,7 +20,7 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.families import BENDING
 from antinode.errors import ComputationError
-from antinode.modes.solve import solve_modes
+from antinode.modes.solve import solve_one
 from antinode.show.loads_table import condition_dict
 from antinode.vehicle.case import Case, load_case
 
@@ -189,5 +189,5 @@ def compare() -> Comparison:
 def _line(row: Row) -> Line:
     case = load_case(example(), row.settings)
     modes = max(case.solve.modes, MODES)
-    result = solve_modes(case, modes, tolerance=case.solve.tolerance, families=[BENDING])
+    result = solve_one(case, modes, tolerance=case.solve.tolerance, families=[BENDING])
     return Line(row, case, result.frequencies_hz()[:MODES])

@@ -10,7 +10,7 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.ends import Ends
 from antinode.modes.result import ModalResult, Mode
-from antinode.modes.solve import solve_modes
+from antinode.modes.solve import solve_one
 from antinode.vehicle.case import Case
 
 from .comparison import Comparison
@@ -45,13 +45,13 @@ class Scene:
     @cached_property
     def result(self) -> ModalResult:
         """Modes in this condition."""
-        return solve_modes(self.modal, 6)
+        return solve_one(self.modal, 6)
 
     @cached_property
     def clamped_tail(self) -> ModalResult:
         """Modes of the same beam with its tail clamped: det S has its poles there."""
         beam = replace(self.modal.beam(), ends=Ends("free", "clamped"))
-        return solve_modes(beam, 8)
+        return solve_one(beam, 8)
 
     def elastic(self, family: str) -> list[Mode]:
         """Return modes 1 to 6 of a family."""

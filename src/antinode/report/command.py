@@ -10,7 +10,7 @@ from antinode.beam.file import TABLES, BeamFile, load_beam
 from antinode.errors import InputError
 from antinode.inputs.reading import read_toml
 from antinode.modes.result import ModalResult
-from antinode.modes.solve import solve_modes
+from antinode.modes.solve import solve_one
 from antinode.show.dataset import check_output
 from antinode.show.outcome import print_json, say_written
 from antinode.vehicle.case import Case, load_case
@@ -105,7 +105,7 @@ def _of_study(
 
 def _solved(problem: Case | BeamFile, modes: int | None, tolerance: float | None) -> ModalResult:
     settings = problem.solve.overridden(modes=modes, tolerance=tolerance)
-    return solve_modes(problem, settings.modes, tolerance=settings.tolerance, unloaded=True)
+    return solve_one(problem, settings.modes, tolerance=settings.tolerance, unloaded=True)
 
 
 def write_report(document: Document, path: Path) -> None:

@@ -16,7 +16,6 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, LONGITUDINAL, FamilyName
 from antinode.errors import ComputationError
 from antinode.modes.batch import BeamBatch, solve_many
-from antinode.modes.kernel import kernel
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.vehicle.case import Case
@@ -77,7 +76,6 @@ def eigenvalues_of(
     ComputationError
         If its loads or its eigenvalues cannot be computed.
     """
-    kernel()  # all solves take it once it is loaded
     beams = [case.beam() for case in cases]
     modes: list[dict[FamilyName, Modes]] = [{} for _ in cases]
     rows = [k for k, families in enumerate(wanted) if BENDING in families]

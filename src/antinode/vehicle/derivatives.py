@@ -26,7 +26,7 @@ import numpy.typing as npt
 from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
-from antinode.modes.kernel import shapes_for
+from antinode.modes.backends import BackendName, choose
 from antinode.riccati.chain import Chain, largest_wave_number
 from antinode.riccati.shapes import propagate
 
@@ -53,10 +53,13 @@ class Modes:
     chain : Chain
     omega2 : array, shape (k,)
         [rad^2/s^2].
+    backend : {"auto", "numpy", "numba"}
+        What computes the shapes.
     """
 
     chain: Chain
     omega2: Array
+    backend: BackendName = "auto"
 
     @property
     def family(self) -> FamilyName:
@@ -66,8 +69,7 @@ class Modes:
     @cached_property
     def states(self) -> Array:
         """At the nodes, up to one factor for each mode, shape (n + 1, k, s)."""
-        solver = shapes_for(len(self.chain.length), len(self.omega2))
-        one = np.ones(len(self.omega2), dtype=np.int64)
+        one, solver = np.ones(len(self.omega2), dtype=np.int64), choose(self.backend)
         return np.asarray(solver.mode_states(self.chain, self.omega2, one))
 
     @cached_property

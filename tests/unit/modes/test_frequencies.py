@@ -1,6 +1,5 @@
 """Frequencies without shapes: compiled and in numpy, against full solves and hp elements."""
 
-import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -11,20 +10,10 @@ import pytest
 import antinode as an
 import hp_beam
 from antinode.beam.attachments import Joint, PointMass, Spring
-from antinode.modes import kernel
-from antinode.modes.frequencies import _by_kernel
+from antinode.modes.backends import choose
+from antinode.modes.frequencies import _directly
 
 ENDS = ("free", "clamped", "pinned", "sliding")
-
-
-@pytest.fixture
-def compiled():
-    kernel.kernel()
-
-
-@pytest.fixture
-def in_numpy(monkeypatch):
-    monkeypatch.setattr(kernel, "_ready", [])
 
 
 def steep(seed, ends=None):
@@ -41,7 +30,6 @@ def stepped(ends=None):
     return an.Beam.from_stations(np.linspace(0, 3, 31), m, EI, None, N, ends=ends)
 
 
-@pytest.mark.usefixtures("compiled")
 @pytest.mark.parametrize("left", ENDS)
 @pytest.mark.parametrize("right", ENDS)
 def test_frequencies_are_those_of_the_modes(left, right):
@@ -56,7 +44,6 @@ def test_frequencies_are_those_of_the_modes(left, right):
     assert np.all(fast.error_hz < 2e-10 * fast.frequencies_hz)
 
 
-@pytest.mark.usefixtures("compiled")
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-7])
 @pytest.mark.parametrize("seed", range(4))
 def test_smooth_beams_keep_their_error(seed, tolerance):
@@ -67,16 +54,12 @@ def test_smooth_beams_keep_their_error(seed, tolerance):
     assert np.all(result.error_omega2 <= 2.01 * tolerance * exact)
 
 
-@pytest.mark.usefixtures("in_numpy")
 def test_numpy_gives_the_same():
-    result = an.natural_frequencies(steep(1), 4)
-    assert kernel._ready == []
-    kernel.kernel()
-    again = an.natural_frequencies(steep(1), 4)
+    result = an.natural_frequencies(steep(1), 4, backend="numpy")
+    again = an.natural_frequencies(steep(1), 4, backend="numba")
     assert np.all(np.abs(again.omega2 - result.omega2) <= result.error_omega2)
 
 
-@pytest.mark.usefixtures("compiled")
 @pytest.mark.parametrize("interpolation", ["log", "linear", "step"])
 @pytest.mark.parametrize("acceleration", [0.0, -12.0])
 def test_attachments_and_acceleration(interpolation, acceleration):
@@ -91,7 +74,6 @@ def test_attachments_and_acceleration(interpolation, acceleration):
     assert np.all(fast.error_omega2 <= 2.1e-8 * np.abs(fast.omega2))
 
 
-@pytest.mark.usefixtures("compiled")
 @pytest.mark.parametrize("seed", range(6))
 def test_the_error_holds_where_levels_agree_by_accident(seed):
     """300 short linear tables, coarse tolerances: where a quarter of the last change did not."""
@@ -108,14 +90,13 @@ def test_the_error_holds_where_levels_agree_by_accident(seed):
         assert np.all(distance <= found.error_omega2 + exact.error_omega2)
 
 
-@pytest.mark.usefixtures("compiled")
 def test_sixty_modes_stay_compiled():
     """Roots that are found wait for the others without being halved for it."""
     rng, x = np.random.default_rng(0), np.linspace(0, 1, 6)
     tables = [rng.uniform(0.5, 2, (2, 6)) for _ in range(20)]
     for m, EI in tables:
         beam = an.Beam.from_stations(x, m, EI, interpolation="linear", ends=an.Ends("clamped"))
-        found = _by_kernel(kernel.kernel(), beam, 60, 1e-6)
+        found = _directly(choose("numba"), beam, 60, 1e-6)
         assert found is not None
 
 
@@ -129,18 +110,15 @@ def modes_of(beam, modes, tolerance):
     return np.array([[mode.omega2, mode.error_omega2] for mode in elastic]).T
 
 
-def test_a_compiled_solve_keeps_tables_of_any_memory_layout():
-    """Views, read-only and Fortran-ordered tables must not make the kernel compile again."""
-    compiled = kernel.kernel()
+def test_tables_of_any_memory_layout_serve():
+    """Views, read-only and Fortran-ordered tables: the same frequencies."""
     beam = steep(5)
     expected = an.natural_frequencies(beam).omega2
-    number = len(compiled.lanes.solve_levels.signatures)
     tables = {name: np.asfortranarray(getattr(beam, name)) for name in STRUCTURE}
     x = np.repeat(beam.x, 2)[::2]
     x.flags.writeable = False
     again = an.natural_frequencies(replace(beam, x=x, **tables)).omega2
     assert again.tolist() == expected.tolist()
-    assert len(compiled.lanes.solve_levels.signatures) == number
 
 
 @pytest.mark.parametrize(("modes", "tolerance"), [(0, 1e-6), (6, 1.0)])
@@ -149,42 +127,13 @@ def test_arguments_outside_their_range(modes, tolerance):
         an.natural_frequencies(stepped(), modes, tolerance=tolerance)
 
 
-def test_a_single_call_loads_no_compiler():
+def test_no_call_imports_the_compiler():
     code = "import sys, antinode as an\n"
     code += "an.natural_frequencies(an.Beam.from_stations([0, 1, 2], [1.0] * 3, [1.0] * 3))\n"
     code += "assert 'numba' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-@pytest.mark.parametrize("cached", [False, True])
-def test_numba_is_not_waited_for_where_numpy_is_done_sooner(cached, tmp_path):
-    """A large beam loads the kernel from its cache, and does not have it compiled."""
-    code = """
-import sys
-from antinode.modes.kernel import kernel_if_worthwhile
-print(kernel_if_worthwhile(200, 8) is None, kernel_if_worthwhile(10_000, 8) is None)
-"""
-    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    if cached:
-        fill = [sys.executable, "-c", "from antinode.modes.kernel import kernel; kernel()"]
-        subprocess.run(fill, env=environment, check=True, capture_output=True)
-    command = [sys.executable, "-c", code]
-    told = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
-    assert told.stdout.split() == ["True", str(not cached)]
-
-
-def test_a_cache_folder_where_the_package_is_read_only(monkeypatch, tmp_path):
-    """Numba finds no place for its cache: one is made among the temporary files."""
-    monkeypatch.setenv("TMPDIR", str(tmp_path))
-    code = """
-import numba
-from numba.core import caching
-caching.CacheImpl._locator_classes = [caching.UserProvidedCacheLocator]
-from antinode.modes.kernel import _import_kernel
-_import_kernel()
-print(numba.config.CACHE_DIR)
-"""
-    environment = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
-    command = [sys.executable, "-c", code]
-    told = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
-    assert told.stdout.strip() == str(tmp_path / "antinode-numba")
+def test_an_unknown_backend_is_refused():
+    with pytest.raises(an.InputError, match="backend is 'fortran'; allowed are 'auto'"):
+        an.natural_frequencies(steep(1), backend="fortran")

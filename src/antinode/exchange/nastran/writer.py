@@ -95,7 +95,7 @@ def nastran_text(result: ModalResult, system: System = SI, notes: tuple[str, ...
 
 def _comparable(result: ModalResult) -> tuple[ModalResult, tuple[str, ...]]:
     """Return modes that the deck can give: NASTRAN lets weight act at its grid."""
-    from antinode.modes.solve import solve_modes
+    from antinode.modes.solve import solve_one
 
     beam = result.beam
     offset = any(isinstance(item, PointMass) and item.offset for item in beam.attachments)
@@ -107,7 +107,7 @@ def _comparable(result: ModalResult) -> tuple[ModalResult, tuple[str, ...]]:
     beam = replace(beam, offset_weight=False)
     number = max(mode.number for mode in result.modes)
     say = "the weight of offset masses acts at their grids, in the frequencies expected here too"
-    return solve_modes(beam, number, tolerance=result.tolerance, unloaded=True), (*notes, say)
+    return solve_one(beam, number, tolerance=result.tolerance, unloaded=True), (*notes, say)
 
 
 def elements_of(beam: Beam, count: int) -> Elements:

@@ -23,21 +23,26 @@ from antinode.riccati.chain import (
     state_units,
 )
 from antinode.riccati.chain import evaluate as evaluate_readable
+from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
 from antinode.riccati.laws import BENDING, Squares
 from antinode.riccati.points import Point
-from antinode.riccati.roots import Eigenvalue
+from antinode.riccati.reasons import CERTIFIED, CHAIN_TOO_SMALL, TABLE_TOO_SMALL
+from antinode.riccati.roots import Eigenvalue, check_certificate
+from antinode.riccati.roots import find_eigenvalues as find_readable
 from antinode.riccati.segment import LONGEST_STEP
 
 from . import kernel as lanes
 from . import shapes as lane_shapes
-from .kernel import CERTIFIED, ENDS, LANES, TABLE_TOO_SMALL
+from .kernel import ENDS, LANES
+from .library import library
+
+name = "numba"
 
 _KEPT = 16  # sizes of chains whose arrays a thread keeps
 _MOST_STEPS = 4096  # coarsest ones of a beam
 _MOST_NODES = 20_000  # whose frames are kept
 _MANY = 64  # chains of a batch from which integrals over shapes are worth their time
 _GUESSED = 1e-8  # relative width of brackets of the chain in the middle of a batch
-_NAMES = np.array(list(ENDS))
 _ENDS = {(left, right): np.array([ENDS[left], ENDS[right]]) for left in ENDS for right in ENDS}
 _NO_POINTS = np.empty(0, np.int64), np.empty((0, 8)), np.empty((0, 8))
 
@@ -115,16 +120,7 @@ def _workspace(n: int, roots: int) -> tuple[npt.NDArray[Any], ...]:
     )
 
 
-def solve_chains(
-    length: Array,
-    mass: Array,
-    stiffness: Array,
-    force: Array,
-    ends: Integers,
-    below: int,
-    width: float,
-    results: tuple[Array, Array, Array, Integers, Array],
-) -> tuple[Integers, Integers]:
+def solve_chains(chains: Chains, below: int, number: int, width: float) -> ChainRoots:
     """Solve chain after chain, each from the roots of the one before.
 
     The table is new in every call: its size decides where a row starts afresh, and a result must
@@ -132,42 +128,49 @@ def solve_chains(
 
     Parameters
     ----------
-    length, mass, stiffness, force : array, shape (chains, n)
-        As in `Chain`, each row a chain; one row of lengths may serve all.
-    ends : array of int, shape (2,)
-        Numbers of `ENDS`.
+    chains : Chains
     below : int
         Eigenvalues below those wanted: the rigid ones.
+    number : int
+        Of eigenvalues wanted.
     width : float
         Relative width of the brackets in omega^2.
-    results : tuple of array
-        Set to the roots, shape (chains, roots), the lower and upper ends of their brackets, their
-        counts, shape (chains, roots, 2), and the rounding; [rad^2/s^2].
-
-    Returns
-    -------
-    reason, total : array of int, shape (chains,)
-        0 where all roots are certified, and the number of evaluations.
     """
-    chains, n = mass.shape
-    roots = results[0].shape[1]
-    reason, total = np.zeros(chains, np.int64), np.zeros(chains, np.int64)
-    neighbour, current, slope = np.full(1, -1), np.zeros(roots), np.zeros(roots)
-    weights, quotient, own = np.empty((3, 0, n)), np.zeros((2, roots)), np.empty((4, n))
-    if chains >= _MANY and len(length) == 1:
-        with np.errstate(all="ignore"):
-            middle = [np.mean(values, axis=0) for values in (mass, stiffness, force)]
-        chain = Chain(BENDING, length[0], BENDING.named(*middle), *_NAMES[ends])
-        weights = _weights(chain, below, roots, weights)
-    table, work, row = np.empty((lanes.ROWS, n + n // 2 + 8)), _scratch.work(n, roots), 0
-    while row < chains:
-        row, columns = lanes.solve_rows(
+    length, mass, stiffness, force = _whole(chains)
+    n, ends, found = mass.shape[1], _ends(chains), ChainRoots.empty(len(chains), number)
+    neighbour, current, slope = np.full(1, -1), np.zeros(number), np.zeros(number)
+    weights, quotient, own = np.empty((3, 0, n)), np.zeros((2, number)), np.empty((4, n))
+    if len(chains) >= _MANY and len(length) == 1:
+        weights = _weights(_middle(chains), below, number, weights)
+    table, work, row = np.empty((lanes.ROWS, n + n // 2 + 8)), _scratch.work(n, number), 0
+    while row < len(chains):
+        row, columns, _ = library().call(
+            "solve_rows",
             *(length, mass, stiffness, force, ends, below, width, weights, row),
-            *(neighbour, current, slope, quotient, own, table, work, *results, reason, total),
+            *(neighbour, current, slope, quotient, own, table, work, *found),
         )
-        if row < chains:
+        if row < len(chains):
             neighbour[0], table = -1, np.empty((lanes.ROWS, columns + columns // 2))
-    return reason, total
+    return found
+
+
+def _whole(chains: Chains) -> tuple[Array, ...]:
+    """Return the arrays of chains, with a row for each but for the length, where one may do."""
+    shape = chains.axial_force.shape
+    rest = (np.ascontiguousarray(np.broadcast_to(v, shape)) for v in chains.arrays[1:])
+    return np.ascontiguousarray(chains.length), *rest
+
+
+def _ends(chains: Chains) -> Integers:
+    return _ENDS[chains.left, chains.right]
+
+
+def _middle(chains: Chains) -> Chain:
+    """Return the mean of all chains."""
+    with np.errstate(all="ignore"):
+        m, EI, N = (np.mean(values, axis=0) for values in chains.arrays[1:])
+        columns = BENDING.named(m, EI, N)
+        return Chain(BENDING, chains.length[0], columns, chains.left, chains.right)
 
 
 def _weights(chain: Chain, below: int, roots: int, none: Array) -> Array:
@@ -188,43 +191,33 @@ def _weights(chain: Chain, below: int, roots: int, none: Array) -> Array:
     return np.ascontiguousarray(weights) if np.all(np.isfinite(weights)) else none
 
 
-def certify_guesses(
-    chain: tuple[Array, Array, Array],
-    force: Array,
-    ends: Integers,
-    below: int,
-    width: float,
-    guess: Array,
-    results: tuple[Array, Array, Array, Integers, Array],
-) -> tuple[Integers, Integers]:
+def certify_guesses(chains: Chains, guess: Array, below: int, width: float) -> ChainRoots:
     """Certify guesses for chains of one structure under many axial forces.
 
     Parameters
     ----------
-    chain : tuple of array, shape (n,)
-        Length, mass and stiffness of all.
-    force : array, shape (chains, n)
+    chains : Chains
+        All with the structure of the first.
     guess : array, shape (chains, roots)
         [rad^2/s^2].
-    ends, below, width, results
+    below, width
         As for `solve_chains`.
 
     Returns
     -------
-    reason, total : array of int, shape (chains,)
-        0 where all roots are certified, and the number of evaluations: two a root where the guess
-        held.
+    ChainRoots
+        With two evaluations a root where the guess held.
     """
-    chains, n = force.shape
-    roots = guess.shape[1]
-    reason, total = np.zeros(chains, np.int64), np.zeros(chains, np.int64)
-    own = np.zeros((4, n))
-    own[0], own[1], own[2] = chain
-    lanes.certify_rows(
-        *(own, force, ends, below, width, guess, *results, reason, total),
-        *(np.empty((lanes.ROWS, n + 64)), _scratch.work(n, roots), np.zeros(n), np.zeros(roots)),
+    n, number = chains.axial_force.shape[1], guess.shape[1]
+    found, own = ChainRoots.empty(len(chains), number), np.zeros((4, n))
+    own[0], own[1], own[2] = chains.length[0], chains.mass[0], chains.stiffness[0]
+    library().call(
+        "certify_rows",
+        *(own, np.ascontiguousarray(chains.axial_force), _ends(chains), below, width),
+        *(np.ascontiguousarray(guess), *found, np.empty((lanes.ROWS, n + 64))),
+        *(_scratch.work(n, number), np.zeros(n), np.zeros(number)),
     )
-    return reason, total
+    return found
 
 
 class Roots(NamedTuple):
@@ -237,43 +230,6 @@ class Roots(NamedTuple):
     counts: Integers
     rounding: Array
     evaluations: int
-
-
-class BeamRoots(NamedTuple):
-    """Consecutive eigenvalues of one beam [rad^2/s^2]; empty but for the reason if it failed."""
-
-    reason: int
-    omega2: Array
-    error: Array
-    """Distance to the eigenvalue of the beam, at most, shape (roots,)."""
-    bracket: Array
-    """Of the finest chain, rounding included, shape (roots, 2)."""
-    counts: Integers
-    evaluations: int
-    segments: int
-    """Of the finest chain."""
-
-
-class Tables(NamedTuple):
-    """A beam in bending, as `lanes.solve_levels` takes it."""
-
-    x: Array
-    """Breakpoints, shape (n + 1,)."""
-    mass: Array
-    """As are stiffness and axial force: at both ends of every interval, shape (n, 2)."""
-    stiffness: Array
-    axial_force: Array
-    acceleration: float
-    """Times the mass left of x, it adds to the axial force."""
-    mass_left: Array
-    """Of every breakpoint; not read without acceleration."""
-    logarithmic: bool
-    limits: tuple[float, float, int]
-    """Steepest ratio over a step, longest share of the phase, and most halvings."""
-    left: str
-    right: str
-    points: Sequence[Point]
-    """Their nodes are numbers of breakpoints."""
 
 
 def solve_beam(
@@ -302,7 +258,8 @@ def solve_beam(
     counts, evaluations = np.empty((number, 2), np.int64), np.empty(1, np.int64)
     columns, segments = 0, 64
     while True:
-        reason, size = lanes.solve_levels(
+        reason, size, _ = library().call(
+            "solve_levels",
             *(x, m, EI, N, beam.acceleration, beam.mass_left, beam.logarithmic, beam.limits),
             *(_ENDS[beam.left, beam.right], below, refinement, tolerance, width, at, points),
             *(omega2, error, bracket, counts, evaluations),
@@ -311,7 +268,7 @@ def solve_beam(
         )
         if reason == TABLE_TOO_SMALL:
             columns = size
-        elif reason == lanes.CHAIN_TOO_SMALL:
+        elif reason == CHAIN_TOO_SMALL:
             segments = size
         else:
             return BeamRoots(reason, omega2, error, bracket, counts, int(evaluations[0]), size)
@@ -331,7 +288,7 @@ class SingleChain:
         own = np.empty((4, len(chain.length)))
         own[0], own[1], own[2] = chain.length, chain.mass, chain.stiffness
         own[3] = 0.0 if bar else chain.axial_force
-        L, m0, stiffness = lanes.make_dimensionless(own)
+        L, m0, stiffness = library().call("make_dimensionless", own, results="ddd")
         self.own, self.unit = own, stiffness / (m0 * L ** (2 if bar else 4))
         names = lanes.BAR_ENDS if bar else ENDS
         self.ends = np.array([names[chain.left], names[chain.right]])
@@ -352,7 +309,9 @@ class SingleChain:
         largest = float(np.max(np.abs(scaled)))
         while True:
             table = _scratch.table(columns)
-            pieces = lanes.prepare(*self.own, self.ends, largest, work[3], work[4], table)
+            pieces = library().call(
+                "prepare", *self.own, self.ends, largest, work[3], work[4], table
+            )[0]
             if pieces <= table.shape[1]:
                 break
             columns = pieces
@@ -360,7 +319,9 @@ class SingleChain:
             worst = float(np.max(np.abs(omega2)))
             raise FloatingPointError(f"omega^2 = {worst:g} is out of reach for this chain")
         count, value = np.empty(len(scaled), np.int64), np.empty(len(scaled))
-        lanes.evaluate_lanes(table, *work[3:6], self.ends, scaled, *work[6:9], count, value)
+        library().call(
+            "evaluate_lanes", table, *work[3:6], self.ends, scaled, *work[6:9], count, value
+        )
         return Evaluation(count, value)
 
     def roots(self, below: int, number: int, width: float) -> Roots:
@@ -376,7 +337,8 @@ class SingleChain:
         root, slope, low, high, rounding = values
         columns = self.own.shape[1] + 8
         while True:
-            reason, total = lanes.find_roots(
+            reason, total, _ = library().call(
+                "find_roots",
                 *(*self.own, self.ends, below, False, root, slope, width, True, low, high),
                 *(counts, rounding, _scratch.table(columns), work, 0.0),
             )
@@ -439,15 +401,27 @@ _scratch = _Scratch()
 
 
 def find_eigenvalues(
-    chain: Chain, wanted: int, *, zeros: int = 0, width: float = 1e-10
-) -> list[Eigenvalue] | None:
+    chain: Chain,
+    wanted: int,
+    *,
+    zeros: int = 0,
+    width: float = 1e-10,
+    expected: Array | None = None,
+) -> list[Eigenvalue]:
     """Return the lowest eigenvalues of a chain as `riccati.roots.find_eigenvalues` does.
 
-    None where determinants do not do: at some supports, and for modes that nearly coincide; the
-    frames do there.
+    Where determinants do not do - some supports, modes that nearly coincide - that function does.
     """
-    if _needs_frames(chain):
-        return None
+    found = None if _needs_frames(chain) else _by_determinants(chain, wanted, zeros, width)
+    if found is not None and check_certificate(found):
+        return found
+    return find_readable(chain, wanted, zeros=zeros, width=width, expected=expected)
+
+
+def _by_determinants(
+    chain: Chain, wanted: int, zeros: int, width: float
+) -> list[Eigenvalue] | None:
+    """Return the lowest eigenvalues of a chain by the compiled search; None where it fails."""
     ready = SingleChain(chain)
     floor = _floor(ready, omega2_scale(chain), zeros)
     if floor is None:
@@ -517,7 +491,8 @@ class _LaneChain:
         self.length, mass, stiffness, force = (np.array(values, order="C") for values in arrays)
         self.units = state_units(chain, omega2)[lane]
         self.EI, self.N, self.inertia = np.empty(n), np.empty((n, LANES)), np.empty((n, LANES))
-        lane_shapes.scaled_chain(
+        library().call(
+            "scaled_chain",
             *(mass, stiffness, force, omega2[lane], self.scale),
             *(chain.reference[0], self.EI, self.N, self.inertia),
         )
@@ -525,8 +500,8 @@ class _LaneChain:
 
     def transfers(self) -> Array:
         U = np.empty((len(self.length), 10, LANES))
-        lane_shapes.transfers(
-            self.length, self.EI, self.N, self.inertia, self.scale, self.scratch, U
+        library().call(
+            "transfers", self.length, self.EI, self.N, self.inertia, self.scale, self.scratch, U
         )
         return U
 
@@ -536,14 +511,15 @@ def _states(fine: Chain, omega2: Array) -> Array:
     n, number = len(fine.length), len(omega2)
     frames, backs = np.empty((2, n + 1, 8, LANES)), np.empty((2, n + 1, 3, LANES))
     free = [i for end in (fine.left, fine.right) for i in range(4) if i not in fine.law.zeros(end)]
-    lane_shapes.sweeps(
+    library().call(
+        "sweeps",
         *(own.transfers(), *_lane_points(fine, omega2, own.units)),
         *(np.array(free).reshape(2, 2), own.scratch, *frames, *backs),
     )
     node, state = np.zeros(LANES, np.int64), np.empty((4, LANES))
-    lane_shapes.meet(*frames, own.scratch, node, state)
+    library().call("meet", *frames, own.scratch, node, state)
     z = np.empty((n + 1, number, 4))
-    lane_shapes.carry(*frames, *backs, node, state, own.units, z)
+    library().call("carry", *frames, *backs, node, state, own.units, z)
     return z
 
 
@@ -573,14 +549,10 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies
         own = _LaneChain(chain, omega2[i : i + LANES])
         these = np.array(states[:, i : i + LANES], order="C")
         total = np.zeros((4, *these[:-1, :, 0].shape))
-        lane_shapes.squares(
+        library().call(
+            "squares",
             *(own.length, own.EI, own.N, own.inertia, own.scale, own.units),
             *(these, share, weight, own.scratch, total),
         )
         parts.append(total)
     return shapes.energies(chain, states, Squares(*np.concatenate(parts, axis=2)))
-
-
-def compiled_here() -> bool:
-    """Tell whether this process had to compile the kernel: it was not in numba's cache."""
-    return bool(lanes.solve_rows.stats.cache_misses or lanes.find_roots.stats.cache_misses)

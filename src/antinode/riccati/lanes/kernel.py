@@ -25,14 +25,24 @@ code by the date of one file: all that is compiled together stands here. Python'
 from __future__ import annotations
 
 import math
-from typing import Any
 
-import numba
 import numpy as np
-from numba.core import types
-from numba.extending import intrinsic
 
 from antinode.riccati.arrays import Array
+from antinode.riccati.reasons import (
+    CERTIFIED,
+    CHAIN_TOO_SMALL,
+    CLUSTERED,
+    INVALID,
+    NOT_BRACKETED,
+    NOT_CONVERGED,
+    NOT_FINITE,
+    OUT_OF_REACH,
+    TABLE_TOO_SMALL,
+    TOO_MANY_STEPS,
+)
+
+from .compiling import compiled, summing, wide_vectors
 
 LANES = 8
 ENDS = {"free": 0, "clamped": 1, "pinned": 2, "sliding": 3}
@@ -61,39 +71,13 @@ def _series() -> Array:
 _T = _series()
 
 
-def _prefer_wide(_context: Any, builder: Any, _signature: Any, _arguments: Any) -> Any:
-    attributes = builder.function.attributes
-    if isinstance(attributes, set):
-        set.add(attributes, '"prefer-vector-width"="512"')
-    return _context.get_dummy_value()
-
-
-def _wide(_typing: Any) -> Any:
-    """Ask LLVM for whole 512-bit vectors where the processor has them (it prefers halves)."""
-    return types.none(), _prefer_wide
-
-
-_wide_vectors: Any = intrinsic(_wide)
-
-
-OPTIONS: dict[str, Any] = {
-    "cache": True,
-    "nogil": True,
-    "error_model": "numpy",
-    "fastmath": {"contract", "nsz", "arcp"},
-    "_nrt": False,  # nothing is allocated inside, and no array's references are counted
-}
-_compiled = numba.njit(**OPTIONS)
-_summing = numba.njit(**{**OPTIONS, "fastmath": {"contract", "nsz", "arcp", "reassoc"}})
-
-
 # --- the table of pieces ----------------------------------------------------------------------
 
 
-@_compiled
+@compiled
 def _all_short(h, m, EI, N, omega2):
     """Tell whether wave number times length is below the limit in every segment."""
-    _wide_vectors()
+    wide_vectors()
     longer = 0
     for k in range(len(h)):
         s = _STEP * _STEP / (h[k] * h[k])
@@ -101,7 +85,7 @@ def _all_short(h, m, EI, N, omega2):
     return longer == 0
 
 
-@_compiled
+@compiled
 def count_pieces(h, m, EI, N, omega2, starts):
     """Set the first piece of every segment; return how many pieces reach up to abs(omega2)."""
     if _all_short(h, m, EI, N, omega2):
@@ -120,10 +104,10 @@ def count_pieces(h, m, EI, N, omega2, starts):
     return total if total < _HUGE else -1
 
 
-@_compiled
+@compiled
 def fill_table(h, m, EI, N, starts, marks, table):
     """Fill the table: one column a piece."""
-    _wide_vectors()
+    wide_vectors()
     n, inertia, length, flexibility = table[16], table[17], table[22], table[23]
     last = starts[len(h)]
     if last == len(h):
@@ -145,10 +129,10 @@ def fill_table(h, m, EI, N, starts, marks, table):
     _fill_series(table, last)
 
 
-@_compiled
+@compiled
 def _fill_ratios(table, last):
     """Fill what depends on the units of a piece and of the one before; and complete 2c/omega^2."""
-    _wide_vectors()
+    wide_vectors()
     inertia, r1, r2, r3, r4 = table[17], table[18], table[19], table[20], table[21]
     length, flexibility = table[22], table[23]
     for i in range(last):
@@ -160,7 +144,7 @@ def _fill_ratios(table, last):
         r1[i], r2[i], r3[i], r4[i] = first, second, r * second, second * second
 
 
-@_compiled
+@compiled
 def _fill_ratio(table, i, before_h, before_f):
     """Fill the ratios of the units of one piece to those given."""
     r, s = table[22, i] / before_h, table[23, i] / before_f
@@ -168,10 +152,10 @@ def _fill_ratio(table, i, before_h, before_f):
     table[20, i], table[21, i] = r * r * r * s, r * r * r * r * s * s
 
 
-@_compiled
+@compiled
 def _fill_series(table, last):
     """Fill the coefficients of the series, which follow from n."""
-    _wide_vectors()
+    wide_vectors()
     n, most = table[16], 0.0
     for i in range(last):
         most = max(most, abs(n[i]))
@@ -193,7 +177,7 @@ def _fill_series(table, last):
                 )
 
 
-@_compiled
+@compiled
 def _fill_force(N, starts, table):
     """Fill what depends on the axial force, for a chain whose other numbers stand in the table."""
     for k in range(len(N)):
@@ -207,10 +191,10 @@ def _fill_force(N, starts, table):
 # the count, omega^2, and the power of two taken out.
 
 
-@_compiled
+@compiled
 def _advance(table, state, first, last):
     """Carry the lanes through pieces: equation 74 in minors, and the count of every joint."""
-    _wide_vectors()
+    wide_vectors()
     for i in range(first, last):
         a0, a1, a2, a3 = table[0, i], table[1, i], table[2, i], table[3, i]
         b0, b1, b2, b3 = table[4, i], table[5, i], table[6, i], table[7, i]
@@ -242,7 +226,7 @@ def _advance(table, state, first, last):
             state[40 + lane] += negative
 
 
-@_compiled
+@compiled
 def repeat(table, state, last, times):
     """Pass a free chain a number of times: to be timed."""
     for _ in range(times):
@@ -250,7 +234,7 @@ def repeat(table, state, last, times):
         _advance(table, state, 0, last)
 
 
-@_compiled
+@compiled
 def _rescale(state):
     """Take a power of two out of a lane that grows large or small."""
     for lane in range(LANES):
@@ -265,7 +249,7 @@ def _rescale(state):
         state[56 + lane] += power
 
 
-@_compiled
+@compiled
 def _to_chain_units(table, piece, state):
     h, f = table[22, piece], table[23, piece]
     for lane in range(LANES):
@@ -275,7 +259,7 @@ def _to_chain_units(table, piece, state):
         state[32 + lane] /= h * h * h * h * f * f
 
 
-@_compiled
+@compiled
 def _start(state, left):
     """Set the minors of an end: free (theta and Y), clamped, pinned, sliding."""
     for k in range(48):
@@ -292,7 +276,7 @@ def _start(state, left):
         state[56 + lane] = 0.0
 
 
-@_compiled
+@compiled
 def _stretch(table, state, first, last, sign):
     """Carry the lanes from one point to the next; at a held node `sign` is compared."""
     if first == last:
@@ -314,7 +298,7 @@ def _stretch(table, state, first, last, sign):
     _to_chain_units(table, last - 1, state)
 
 
-@_compiled
+@compiled
 def _pass_point(point, state, sign):
     """Apply support, load and joint of a node (`riccati.points`).
 
@@ -345,7 +329,7 @@ def _pass_point(point, state, sign):
     _rescale(state)
 
 
-@_compiled
+@compiled
 def _finish(state, right, value):
     """Count what the right end leaves free, and set the characteristic function."""
     for lane in range(LANES):
@@ -365,7 +349,7 @@ def _finish(state, right, value):
         state[40 + lane] += more
 
 
-@_compiled
+@compiled
 def _sweep(table, starts, marks, points, left, right, state, sign, value):
     """Pass the chain from left to right."""
     for lane in range(LANES):
@@ -393,7 +377,7 @@ _COSINE = tuple((-1.0) ** k / math.factorial(2 * k) for k in range(_BAR_TERMS))
 _SINE = tuple((-1.0) ** k / math.factorial(2 * k + 1) for k in range(_BAR_TERMS))
 
 
-@_compiled
+@compiled
 def count_bar_pieces(h, m, EA, omega2, starts):
     """Set the first piece of every segment; return how many pieces reach up to abs(omega2)."""
     total = 0
@@ -407,7 +391,7 @@ def count_bar_pieces(h, m, EA, omega2, starts):
     return total if total < _HUGE else -1
 
 
-@_compiled
+@compiled
 def fill_bar_table(h, m, EA, starts, marks, table):
     """Fill the table: one column a piece."""
     previous = 1.0
@@ -422,10 +406,10 @@ def fill_bar_table(h, m, EA, starts, marks, table):
             previous = size * f
 
 
-@_compiled
+@compiled
 def _advance_bar(table, state, first, last):
     """Carry the lanes through pieces, and count the changes of sign of X."""
-    _wide_vectors()
+    wide_vectors()
     c0, c1, c2, c3, c4, c5, c6, c7 = _COSINE
     s0, s1, s2, s3, s4, s5, s6, s7 = _SINE
     for i in range(first, last):
@@ -440,7 +424,7 @@ def _advance_bar(table, state, first, last):
             state[40 + lane] += 1.0 if X * following < 0.0 else 0.0
 
 
-@_compiled
+@compiled
 def _stretch_bar(table, state, first, last, sign):
     """Carry the lanes from one point to the next; at a fixed end `sign` is compared."""
     if first == last:
@@ -460,7 +444,7 @@ def _stretch_bar(table, state, first, last, sign):
         state[8 + lane] /= table[22, last - 1] * table[23, last - 1]
 
 
-@_compiled
+@compiled
 def _pass_bar_point(point, state):
     """Apply mass and spring, and then the joint, of a node."""
     for lane in range(LANES):
@@ -471,7 +455,7 @@ def _pass_bar_point(point, state):
         state[lane], state[8 + lane] = following, Q
 
 
-@_compiled
+@compiled
 def _sweep_bar(table, starts, marks, points, left, right, state, sign, value):
     """Pass a longitudinal chain from left to right."""
     fixed = left == BAR_FIXED
@@ -498,7 +482,7 @@ def _sweep_bar(table, starts, marks, points, left, right, state, sign, value):
 # --- either family ------------------------------------------------------------------------------
 
 
-@_compiled
+@compiled
 def prepare(h, m, EI, N, ends, omega2, starts, marks, table):
     """Fill the table for all up to abs(omega2); return the pieces, which may be more than fit."""
     bar = ends[0] >= BAR_FREE
@@ -514,7 +498,7 @@ def prepare(h, m, EI, N, ends, omega2, starts, marks, table):
     return pieces
 
 
-@_compiled
+@compiled
 def _pass(table, starts, marks, points, ends, state, sign, value):
     """Pass a chain of either family from left to right."""
     if ends[0] >= BAR_FREE:
@@ -523,7 +507,7 @@ def _pass(table, starts, marks, points, ends, state, sign, value):
         _sweep(table, starts, marks, points, ends[0], ends[1], state, sign, value)
 
 
-@_compiled
+@compiled
 def evaluate_lanes(table, starts, marks, points, ends, omega2, state, sign, found, count, value):
     """Evaluate a chain at any number of omega^2."""
     for first in range(0, len(omega2), LANES):
@@ -541,9 +525,6 @@ def evaluate_lanes(table, starts, marks, points, ends, omega2, state, sign, foun
 # not. Inside, the characteristic function divided by (omega^2 - root) of the other roots is
 # nearly linear: it has no poles, and no other zero near.
 
-CERTIFIED, OUT_OF_REACH, NOT_BRACKETED, NOT_FINITE, INVALID, CLUSTERED = 0, 1, 2, 3, 4, 5
-TABLE_TOO_SMALL = -1
-
 MOST_SAMPLES = 256, 64  # and more for every root
 _MOST_PASSES = 100
 _EPSILON = 64 * float(np.finfo(float).eps)  # rounding of the minors, relative
@@ -557,7 +538,7 @@ _FAR = 0.05  # relative likely error of a root up to which a second sample helps
 _NEIGHBOURS = 4  # roots on each side that are divided out
 
 
-@_compiled
+@compiled
 def _first_samples(h, m, EI, N, number, samples):
     """Set samples between the roots that a slowly varying chain would have, and one below 0.
 
@@ -576,7 +557,7 @@ def _first_samples(h, m, EI, N, number, samples):
     return number + 1
 
 
-@_compiled
+@compiled
 def _first_bar_samples(h, m, EA, number, samples):
     """Set samples between the roots that a slowly varying bar would have, and one below 0."""
     phase = 0.0
@@ -588,7 +569,7 @@ def _first_bar_samples(h, m, EA, number, samples):
     return number + 1
 
 
-@_compiled
+@compiled
 def _others(x, root, k, rigid):
     """Return the product of (x - root) over the neighbouring roots and the rigid ones."""
     product = 1.0
@@ -601,7 +582,7 @@ def _others(x, root, k, rigid):
     return product
 
 
-@_compiled
+@compiled
 def _nearest(k, index, samples, total, root, near):
     """Collect up to four samples next to root k that lie between its neighbours."""
     found = 0
@@ -625,7 +606,7 @@ def _nearest(k, index, samples, total, root, near):
     return found
 
 
-@_compiled
+@compiled
 def _latest(k, index, samples, root, own, near):
     """Collect the samples that root k asked for last, as `_nearest` would."""
     found = 0
@@ -639,7 +620,7 @@ def _latest(k, index, samples, root, own, near):
     return found
 
 
-@_compiled
+@compiled
 def _interpolate(x, y, number):
     """Return x where the polynomial x(y) through the points has y = 0 (Neville; x is lost).
 
@@ -653,13 +634,13 @@ def _interpolate(x, y, number):
     return x[0], rough, farthest
 
 
-@_compiled
+@compiled
 def _shifted(value, power):
     """Return the value times a power of two, which mostly is 0."""
     return value if power == 0.0 else math.ldexp(value, int(power))
 
 
-@_compiled
+@compiled
 def _predict(k, index, samples, total, root, rigid, slope, own, near, x, y):
     """Return a root from the samples next to it, and its likely error (inf: no prediction)."""
     number = _latest(k, index, samples, root, own, near)
@@ -685,7 +666,7 @@ def _predict(k, index, samples, total, root, rigid, slope, own, near, x, y):
     return better, abs(better - rough) * min(1.0, abs(farthest - better) / gap)
 
 
-@_compiled
+@compiled
 def _slopes(samples, total, root, below, slope, own, near):
     """Set the divided function's slope at every root, for the next chain's first step."""
     for k in range(len(root)):
@@ -696,7 +677,7 @@ def _slopes(samples, total, root, below, slope, own, near):
         _slope_from(samples, near, number, root, k, below, slope)
 
 
-@_compiled
+@compiled
 def _slope_from(samples, near, number, root, k, below, slope):
     """Set the slope at root k by the first of some samples that is not too near."""
     for i in range(number):
@@ -711,7 +692,7 @@ def _slope_from(samples, near, number, root, k, below, slope):
     return False
 
 
-@_compiled
+@compiled
 def _choose(
     k, index, samples, total, lo, hi, root, rigid, slope, width, certify, stuck, own, near, x, y,
     wanted
@@ -753,7 +734,7 @@ def _choose(
     return number, True
 
 
-@_compiled
+@compiled
 def _middle(lo, hi):
     """Return a place that halves a bracket, or goes on from its one end."""
     if math.isinf(lo):
@@ -765,7 +746,7 @@ def _middle(lo, hi):
     return (lo + hi) / 2
 
 
-@_compiled
+@compiled
 def _schedule(number, certifies, wanted, before, asked, owner):
     """Fill whole passes of lanes; return the number of samples.
 
@@ -800,7 +781,7 @@ def _schedule(number, certifies, wanted, before, asked, owner):
     return total
 
 
-@_compiled
+@compiled
 def _take_sample(lane, state, value, samples, total, below, low, high, counts, at):
     """Keep one lane, and let it narrow the brackets."""
     omega2, count = state[48 + lane], int(state[40 + lane])
@@ -816,10 +797,10 @@ def _take_sample(lane, state, value, samples, total, below, low, high, counts, a
             high[k], counts[k, 1], at[k, 1] = omega2, count, total
 
 
-@_compiled
+@compiled
 def _between(samples, at, root):
     """Return the root by the secant of its bracket, where the ends have different signs."""
-    low, high = at
+    low, high = at[0], at[1]
     before = samples[low, 2]
     after = _shifted(samples[high, 2], samples[high, 3] - samples[low, 3])
     if not before * after < 0.0:
@@ -827,7 +808,7 @@ def _between(samples, at, root):
     return samples[low, 0] + (samples[high, 0] - samples[low, 0]) * before / (before - after)
 
 
-@_compiled
+@compiled
 def _over_slope(size, unit, width, rise, steepness, power):
     """Return the rounding of minors over the smaller of two slopes: in the bracket, and around."""
     slope = rise / width
@@ -836,14 +817,14 @@ def _over_slope(size, unit, width, rise, steepness, power):
     return _EPSILON * size / (slope * unit) if slope > 0.0 else np.inf
 
 
-@_compiled
+@compiled
 def _rounding(samples, at, right, force, steepness):
     """Estimate the rounding of a root: that of the minors, over the slope of the one that is 0.
 
     The determinant of two roots that nearly coincide is small of second order, and its sign is
     sure no nearer to them than the square root of rounding.
     """
-    low, high = at
+    low, high = at[0], at[1]
     width = samples[high, 0] - samples[low, 0]
     if right >= BAR_FREE:
         scale = 1.0 / math.sqrt(abs(samples[low, 0]) + 1.0)
@@ -853,17 +834,17 @@ def _rounding(samples, at, right, force, steepness):
         return _over_slope(size, unit, width, abs(samples[low, 2]) + abs(other), steepness,
                            samples[low, 3])  # fmt: skip
     scale = 1.0 / math.sqrt(math.sqrt(abs(samples[low, 0]) + force * force + 1.0))
-    units = (1.0, scale, scale**2 / 2, scale**3 / 2, scale**4 / 2)
-    size = 0.0
-    for row in range(5):
-        size = max(size, abs(samples[low, 4 + row]) * units[row])
-    unit = units[4] if right == 0 else units[0] if right == 1 else units[1 if right == 2 else 3]
+    square = scale * scale
+    e, d, f = square / 2, scale * square / 2, square * square / 2
+    size = max(abs(samples[low, 4]), abs(samples[low, 5]) * scale, abs(samples[low, 6]) * e)
+    size = max(size, abs(samples[low, 7]) * d, abs(samples[low, 8]) * f)
+    unit = f if right == 0 else 1.0 if right == 1 else scale if right == 2 else d
     other = _shifted(samples[high, 2], samples[high, 3] - samples[low, 3])
     return _over_slope(size, unit, width, abs(samples[low, 2]) + abs(other), steepness,
                        samples[low, 3])  # fmt: skip
 
 
-@_compiled
+@compiled
 def _steepness(samples, total, root, k, rigid):
     """Return the slope of the characteristic function at root k, from a sample off all roots.
 
@@ -887,7 +868,7 @@ def _steepness(samples, total, root, k, rigid):
     return abs(_shifted(divided * _others(root[k], root, k, rigid), samples[place, 3]))
 
 
-@_compiled
+@compiled
 def _closest(root, k):
     """Return the distance of root k to its neighbours, relative to it."""
     gap = np.inf
@@ -898,14 +879,14 @@ def _closest(root, k):
     return gap / max(abs(root[k]), 1e-300)
 
 
-@_compiled
+@compiled
 def _cancelling(omega2, force):
     """Estimate the rounding of omega^2 that is small against what EI and N add to it."""
     wave = force / 2.0 + math.sqrt(force * force / 4.0 + abs(omega2))
     return _EPSILON * (abs(omega2) + 2.0 * force * wave)
 
 
-@_compiled
+@compiled
 def _watch(low, high, before, stuck, root, centre):
     """Notice brackets that do not halve; start roots in the middle of theirs where asked."""
     for k in range(len(root)):
@@ -919,7 +900,7 @@ def _watch(low, high, before, stuck, root, centre):
         before[k] = size
 
 
-@_compiled
+@compiled
 def find_roots(
     h, m, EI, N, ends, below, warm, root, slope, width, certify, low, high, counts, rounding,
     table, work, reach,
@@ -1015,7 +996,7 @@ def find_roots(
     return NOT_BRACKETED, total
 
 
-@_compiled
+@compiled
 def _is_valid(h, m, EI, N):
     """Tell whether lengths, masses and stiffnesses are positive, and all is finite."""
     valid = 0
@@ -1026,7 +1007,7 @@ def _is_valid(h, m, EI, N):
     return valid == 3 * len(h)
 
 
-@_summing
+@summing
 def _means(own):
     """Return the length, the mean m and the mean EI of the rows h, m, EI, N of a chain."""
     L, m0, EI0, n = 0.0, 0.0, 0.0, own.shape[1]
@@ -1035,7 +1016,7 @@ def _means(own):
     return L, m0 / n, EI0 / n
 
 
-@_summing
+@summing
 def _pull(h, N):
     """Return the integral of abs(N)."""
     total = 0.0
@@ -1044,7 +1025,7 @@ def _pull(h, N):
     return total
 
 
-@_compiled
+@compiled
 def make_dimensionless(own):
     """Make the rows h, m, EI, N of a chain dimensionless; return length, mean m and mean EI."""
     L, m0, EI0 = _means(own)
@@ -1054,7 +1035,7 @@ def make_dimensionless(own):
     return L, m0, EI0
 
 
-@_summing
+@summing
 def _quotients(weights, mass, stiffness, force, quotient):
     """Set Rayleigh's quotients of given shapes for a chain [rad^2/s^2].
 
@@ -1069,7 +1050,7 @@ def _quotients(weights, mass, stiffness, force, quotient):
         quotient[k] = stored / moving
 
 
-@_compiled
+@compiled
 def _guess(root, quotient, before, unit, current):
     """Guess the roots from a neighbour's and the change of Rayleigh's quotients, if they rise."""
     for k in range(1, len(root)):
@@ -1080,7 +1061,7 @@ def _guess(root, quotient, before, unit, current):
         current[k] = (root[k] + (quotient[k] - before[k])) / unit
 
 
-@_compiled
+@compiled
 def solve_rows(
     length, mass, stiffness, force, ends, below, width, weights, first, neighbour, current, slope,
     quotient, own, table, work, root, low, high, counts, rounding, reason, total
@@ -1123,7 +1104,7 @@ def solve_rows(
     return len(mass), 0
 
 
-@_compiled
+@compiled
 def certify_rows(
     own, force, ends, below, width, guess, root, low, high, counts, rounding, reason, total,
     table, work, most, slope,
@@ -1178,7 +1159,6 @@ def certify_rows(
 
 GAUSS = 0.5 - math.sqrt(3) / 6
 NEAR = 0.5 + math.sqrt(3) / 3
-CHAIN_TOO_SMALL, TOO_MANY_STEPS, NOT_CONVERGED = -2, 6, 7
 
 MOST_LEVELS = 7
 _COARSE = 1e-8  # relative width of chains that only tell how omega^2 changes
@@ -1186,7 +1166,7 @@ _ACCIDENT = 1 / 100  # of the last change of omega^2 that an error keeps, a neig
 _SHARE = 1 / 4  # of the last change of the extrapolated omega^2: its error falls by 16 or more
 
 
-@_compiled
+@compiled
 def _at(a, b, t, log):
     if t == 0.0:
         return a
@@ -1195,7 +1175,7 @@ def _at(a, b, t, log):
     return a * math.exp(math.log(b / a) * t) if log else a + (b - a) * t
 
 
-@_compiled
+@compiled
 def _gauss_values(a, b, start, step, log):
     """Return a property at the two Gauss points of the first of equal steps of an interval.
 
@@ -1212,7 +1192,7 @@ def _gauss_values(a, b, start, step, log):
     return first, first * (times / (near * near)), times
 
 
-@_compiled
+@compiled
 def _mass_until(a, b, h, t, log):
     """Return the mass of the first part of an interval: a share t of its length h."""
     if not log:
@@ -1221,7 +1201,7 @@ def _mass_until(a, b, h, t, log):
     return h * t * a * (math.expm1(rate) / rate if abs(rate) > 1e-12 else 1.0)
 
 
-@_compiled
+@compiled
 def _varying(m, EI, N, acceleration, varies):
     """Set which intervals something varies in; return whether it does anywhere."""
     anywhere = False
@@ -1232,7 +1212,7 @@ def _varying(m, EI, N, acceleration, varies):
     return anywhere
 
 
-@_compiled
+@compiled
 def coarsest_steps(x, m, EI, varies, log, limits, interval, steps):
     """Halve steps in which something varies until none is steep or long; return their number.
 
@@ -1274,7 +1254,7 @@ def coarsest_steps(x, m, EI, varies, log, limits, interval, steps):
     return number
 
 
-@_compiled
+@compiled
 def make_halves(
     x, m, EI, N, acceleration, mass_left, varies, log, interval, steps, number, refinement, first,
     own,
@@ -1314,7 +1294,7 @@ def make_halves(
     return i
 
 
-@_compiled
+@compiled
 def _refined(levels, level, tolerance, coarse, error, better):
     """Extrapolate twice and compare; return whether every omega^2 is within the tolerance.
 
@@ -1334,21 +1314,25 @@ def _refined(levels, level, tolerance, coarse, error, better):
     return sure
 
 
-@_compiled
+@compiled
 def _in_units(x, m, EI, points, scaled):
     """Make points dimensionless; return length, mean mass per length and mean EI of a beam."""
     L, m0, EI0, n = x[len(x) - 1] - x[0], 0.0, 0.0, len(m)
     for k in range(n):
         m0, EI0 = m0 + (m[k, 0] + m[k, 1]) / (2 * n), EI0 + (EI[k, 0] + EI[k, 1]) / (2 * n)
     mass, spring = m0 * L, EI0 / (L * L * L)
-    units = (mass, mass * L, mass * L * L, spring, spring * L * L, 1.0, 1.0, L / EI0)
     for k in range(len(points)):
-        for i in range(8):
-            scaled[k, i] = points[k, i] / units[i]
+        scaled[k, 0] = points[k, 0] / mass
+        scaled[k, 1] = points[k, 1] / (mass * L)
+        scaled[k, 2] = points[k, 2] / (mass * L * L)
+        scaled[k, 3] = points[k, 3] / spring
+        scaled[k, 4] = points[k, 4] / (spring * L * L)
+        scaled[k, 5], scaled[k, 6] = points[k, 5], points[k, 6]
+        scaled[k, 7] = points[k, 7] / (L / EI0)
     return L, m0, EI0
 
 
-@_compiled
+@compiled
 def _to_chain(n, L, m0, EI0, own, at, first, marks):
     """Make the segments of a beam dimensionless, and mark the nodes of its points."""
     for i in range(n):
@@ -1360,7 +1344,7 @@ def _to_chain(n, L, m0, EI0, own, at, first, marks):
         marks[first[at[i]]] = i
 
 
-@_compiled
+@compiled
 def _report(unit, better, error, low, high, rounding, omega2, error_omega2, bracket):
     """Set results in SI; the error is that of the segments, and the way to the bracket's end."""
     for k in range(len(better)):
@@ -1371,7 +1355,7 @@ def _report(unit, better, error, low, high, rounding, omega2, error_omega2, brac
         bracket[k, 0], bracket[k, 1] = unit * below, unit * above
 
 
-@_compiled
+@compiled
 def solve_levels(
     x, m, EI, N, acceleration, mass_left, log, limits, ends, below, refinement, tolerance, width,
     at, points, omega2, error_omega2, bracket, counts, evaluations,

@@ -14,22 +14,21 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 
-from .kernel import LANES, OPTIONS
+from .compiling import compiled
+from .kernel import LANES
 
 TERMS = 16
 """Most terms of the series: twice what the longest segment needs."""
 
-_compiled = numba.njit(**OPTIONS)
 _SERIES = np.array([[1 / math.factorial(2 * k + j) for k in range(TERMS)] for j in (3, 2, 1, 0)])
 _BELOW_ROUNDING = 1e-18
 SCRATCH = 27
 """Rows of lanes that the functions write into."""
 
 
-@_compiled
+@compiled
 def _terms(h, EI, N, inertia, scale):
     """Return how many terms make the truncation of every series smaller than rounding."""
     most = 0.0
@@ -46,7 +45,7 @@ def _terms(h, EI, N, inertia, scale):
     return max(terms, 2)
 
 
-@_compiled
+@compiled
 def scaled_chain(mass, stiffness, force, omega2, scale, EI0, EI, N, inertia):
     """Set EI, N and m omega^2 of every segment in the units of the lanes."""
     for i in range(len(mass)):
@@ -57,7 +56,7 @@ def scaled_chain(mass, stiffness, force, omega2, scale, EI0, EI, N, inertia):
             inertia[i, lane] = mass[i] * (omega2[lane] * square * square / EI0)
 
 
-@_compiled
+@compiled
 def _transfer(h, EI, N, inertia, terms, q, sums, U):
     """Set the ten different entries of the transfer matrix (equation 62) of one segment.
 
@@ -94,7 +93,7 @@ def _transfer(h, EI, N, inertia, terms, q, sums, U):
         U[9, lane] = mw * (g2 + N[lane] / EI * g)
 
 
-@_compiled
+@compiled
 def transfers(h, EI, N, inertia, scale, scratch, U):
     """Set the transfer matrices of all segments."""
     q, sums, x = scratch[0:4], scratch[4:8], scratch[8]
@@ -105,7 +104,7 @@ def transfers(h, EI, N, inertia, scale, scratch, U):
         _transfer(x, EI[i], N[i], inertia[i], terms, q, sums, U[i])
 
 
-@_compiled
+@compiled
 def _step(U, side, before, first, after):
     """Carry a column of four rows from `first` on through a segment: to the right, or to the left.
 
@@ -123,7 +122,7 @@ def _step(U, side, before, first, after):
         after[first + 3, lane] = u30 * y + u20 * t + u10 * m + u00 * s
 
 
-@_compiled
+@compiled
 def _pass_point(point, side, F):
     """Pass the two columns of a frame through a point: load and then joint, or back."""
     for first in (0, 4):
@@ -139,7 +138,7 @@ def _pass_point(point, side, F):
             F[first + 1, lane], F[first + 2, lane], F[first + 3, lane] = t, m, s
 
 
-@_compiled
+@compiled
 def _orthonormalise(F, back):
     """Make the columns of F orthonormal; set back to the inverse of R in F = Q R (00, 01, 11)."""
     for lane in range(LANES):
@@ -156,7 +155,7 @@ def _orthonormalise(F, back):
         back[0, lane], back[1, lane], back[2, lane] = first, -shared * first * second, second
 
 
-@_compiled
+@compiled
 def _start(first, second, F):
     """Set the frame of an end whose free components are two."""
     for row in range(8):
@@ -164,7 +163,7 @@ def _start(first, second, F):
             F[row, lane] = 1.0 if row == first or row == 4 + second else 0.0
 
 
-@_compiled
+@compiled
 def sweeps(U, marks, points, free, scratch, left, right, back_left, back_right):
     """Carry the frames of both ends along; those of a node belong to its right side (last: left).
 
@@ -198,7 +197,7 @@ def sweeps(U, marks, points, free, scratch, left, right, back_left, back_right):
         _orthonormalise(right[i], back_right[i])
 
 
-@_compiled
+@compiled
 def _product(L, a, R, b, lane):
     """Return the symplectic product of column a of one frame and b of another."""
     return (
@@ -209,7 +208,7 @@ def _product(L, a, R, b, lane):
     )
 
 
-@_compiled
+@compiled
 def meet(left, right, scratch, node, state):
     """Set, for each lane, the node where the two frames come closest, and the state they share."""
     least = scratch[0]
@@ -231,7 +230,7 @@ def meet(left, right, scratch, node, state):
                     state[row, lane] = x * R[row, lane] + y * R[4 + row, lane]
 
 
-@_compiled
+@compiled
 def carry(left, right, back_left, back_right, node, state, units, z):
     """Carry the shared states outwards; set z[node, mode, component] in SI."""
     for lane in range(z.shape[1]):
@@ -250,7 +249,7 @@ def carry(left, right, back_left, back_right, node, state, units, z):
                 i += -1 if side == 0 else 1
 
 
-@_compiled
+@compiled
 def squares(h, EI, N, inertia, scale, units, states, shares, weights, scratch, total):
     """Add up the integrals of Y^2, theta^2, M^2 and M'^2 over every segment, by Gauss points.
 

@@ -13,7 +13,6 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arrays import Array
-from antinode.modes.kernel import kernel
 from antinode.study.design.file import Study
 from antinode.study.design.points import Points
 from antinode.vehicle.many_loads import OUT_OF_RANGE
@@ -34,7 +33,6 @@ def mode_names(study: Study) -> list[str]:
 
 def compute_chunk(points: Points, chunk: int) -> Arrays:
     """Compute a chunk: arrays over its cases, by the names of the variables of the result."""
-    kernel()  # all solves take it once it is loaded
     study = points.study
     cases = Cases(study, points.variables, points.values(chunk))
     beams = beams_of(cases)

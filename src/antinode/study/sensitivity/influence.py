@@ -22,8 +22,9 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.file import BeamFile
 from antinode.errors import AntinodeError
+from antinode.modes.backends import for_one
 from antinode.modes.result import ModalResult
-from antinode.modes.solve import solve_modes
+from antinode.modes.solve import solve_one
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import MassChange, Modes, Sensitivity
 from antinode.vehicle.effects import by_logarithm, effects_between
@@ -58,7 +59,8 @@ class Influence(NamedTuple):
 def case_influences(case: Case, result: ModalResult, most: int) -> list[Influence]:
     """Return what moves the bending modes 1 ... n of a vehicle, solved before."""
     omega2 = [mode.omega2 for mode in result.family(BENDING) if mode.number][:most]
-    modes = Modes(result.solutions[BENDING].chain, np.array(omega2))
+    chain = result.solutions[BENDING].chain
+    modes = Modes(chain, np.array(omega2), for_one(len(chain.length), len(omega2)))
     sensitivity = Sensitivity(modes, result.beam, case.loads)
     return [*_of_condition(case, sensitivity), *_of_body(case, sensitivity)]
 
@@ -128,7 +130,7 @@ def beam_influences(file: BeamFile, modes: int, tolerance: float) -> list[Influe
 
 
 def _omega2(beam: Beam, modes: int, tolerance: float) -> Array:
-    result = solve_modes(beam, modes, tolerance=tolerance, families=[BENDING])
+    result = solve_one(beam, modes, tolerance=tolerance, families=[BENDING])
     return np.array([result.mode(BENDING, k).omega2 for k in range(1, modes + 1)])
 
 

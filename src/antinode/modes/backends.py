@@ -1,0 +1,114 @@
+"""Which code solves: numpy, which is read, or numba's, which is fast. Both answer the same calls.
+
+It is chosen by name, openly: nothing that was solved before, and no file on the disk, decides.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, Protocol, get_args
+
+import numpy.typing as npt
+
+from antinode.arrays import Array, Integers
+from antinode.errors import ComputationError, InputError
+from antinode.riccati.chain import Chain, Evaluation
+from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
+from antinode.riccati.roots import Eigenvalue
+from antinode.riccati.shapes import Energies
+
+BackendName = Literal["auto", "numpy", "numba"]
+
+AUTO: BackendName = "numba"
+"""What "auto" stands for."""
+
+_SMALL = 10_000  # segments times modes that numpy solves in some tenths of a second
+
+
+class Backend(Protocol):
+    """What solves chains and beams: a module, `riccati.readable` or `riccati.lanes.calls`."""
+
+    name: str
+
+    def evaluate(self, chain: Chain, omega2: npt.ArrayLike, /) -> Evaluation:
+        """Count the eigenvalues below each omega^2, with the characteristic function there."""
+        ...
+
+    def find_eigenvalues(
+        self,
+        chain: Chain,
+        wanted: int,
+        /,
+        *,
+        zeros: int = 0,
+        width: float = 1e-10,
+        expected: Array | None = None,
+    ) -> list[Eigenvalue]:
+        """Return the lowest eigenvalues of a chain, certified, without a gap."""
+        ...
+
+    def solve_chains(self, chains: Chains, below: int, number: int, width: float, /) -> ChainRoots:
+        """Solve chain after chain for eigenvalues below + 1 ... below + number."""
+        ...
+
+    def certify_guesses(
+        self, chains: Chains, guess: Array, below: int, width: float, /
+    ) -> ChainRoots:
+        """Certify guesses for chains of one structure under many axial forces."""
+        ...
+
+    def solve_beam(
+        self,
+        beam: Tables,
+        below: int,
+        number: int,
+        refinement: int,
+        tolerance: float,
+        width: float,
+        /,
+    ) -> BeamRoots | None:
+        """Solve a beam with steps halved until they agree; None if that is not its own to do."""
+        ...
+
+    def mode_states(self, chain: Chain, omega2: Array, multiplicity: Integers, /) -> Array:
+        """Return the states of modes at every node, shape (n + 1, k, s)."""
+        ...
+
+    def mode_energies(self, chain: Chain, states: Array, omega2: Array, /) -> Energies:
+        """Return modal mass and stiffness of modes."""
+        ...
+
+
+def choose(name: BackendName = "auto") -> Backend:
+    """Return the backend of a name; "auto" is numba, loaded in some hundredths of a second.
+
+    Raises
+    ------
+    InputError
+        If there is none of this name.
+    ComputationError
+        If numba's code is missing and cannot be made.
+    """
+    if name not in get_args(BackendName):
+        allowed = ", ".join(map(repr, get_args(BackendName)))
+        raise InputError(f"backend is {name!r}; allowed are {allowed}")
+    if (AUTO if name == "auto" else name) == "numpy":
+        from antinode.riccati import readable
+
+        return readable
+    from antinode.riccati.lanes import calls
+    from antinode.riccati.lanes.library import LibraryError, library
+
+    try:
+        library()
+    except LibraryError as error:
+        raise ComputationError(str(error)) from error
+    return calls
+
+
+def for_one(segments: int, modes: int) -> BackendName:
+    """Return what a command that solves a single problem asks for.
+
+    Below 10,000 segments times modes numpy takes some tenths of a second at most: such a command
+    answers at once on a fresh install, where numba would compile for ten seconds first.
+    """
+    return "numpy" if segments * modes < _SMALL else "numba"
