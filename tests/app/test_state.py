@@ -19,7 +19,7 @@ from antinode.app.inputs import find_input, numbers, sliders
 from antinode.app.page import equipment
 from antinode.app.panels.frequencies import baseline_of, frequencies_data
 from antinode.app.panels.numbers import short_list
-from antinode.app.quick import quick_modes, wait_until_warm, warm_up
+from antinode.app.quick import quick_modes
 from antinode.app.save import case_toml, report_file, result_file
 from antinode.app.source import read_dropped, read_example, read_file
 from antinode.app.state import File, History, State, fields_of, packed, unpacked
@@ -173,8 +173,6 @@ def test_a_wrong_file_ends_in_a_sentence_without_paths(files, say):
 
 @pytest.mark.parametrize("example", EXAMPLES)
 def test_quick_modes_are_within_a_ten_thousandth(example):
-    warm_up()
-    assert wait_until_warm()
     state = State(read_example(example))
     quick = quick_picture(state).quick
     result = solve_modes(state.problem, len(quick.omega2), families=["bending"])
@@ -186,8 +184,6 @@ def test_quick_modes_are_within_a_ten_thousandth(example):
 
 
 def test_quick_modes_past_buckling():
-    warm_up()
-    assert wait_until_warm()
     state = State(read_example("beam"))
     force = 3 * 9.87 * 7e4
     columns = columns_of(state.problem)

@@ -39,6 +39,7 @@ MOST_FILES, MOST_IN_ROOT = 22, 10
 
 HEAVY = (
     "numba",
+    "llvmlite",
     "matplotlib",
     "xarray",
     "scipy",

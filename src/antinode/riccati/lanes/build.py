@@ -7,7 +7,7 @@ together. What it has besides - a module for each function, with copies of all t
 optimised and translated for itself, and wrappers for Python - is left away.
 """
 
-# mypy: disable-error-code="no-untyped-def, no-any-return, misc, attr-defined, call-arg, call-overload"
+# mypy: ignore-errors
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ HELPERS |= {"sqrt": "sqrt", "numba_frexp": "frexp", "numba_ldexp": "ldexp"}
 
 _FOLDER = Path(__file__).parent
 _MORE_SOURCES = [_FOLDER.parent / "reasons.py"]
-_NOT_COMPILED = {"__init__.py", "calls.py", "library.py"}
+_NOT_COMPILED = {"__init__.py", "calls.py"}
 _CHECK = 32  # bytes of a digest, before the code
 _PATIENCE = 2.0  # s
 _loading = threading.Lock()
@@ -53,9 +53,15 @@ class Library:
     ----------
     code : bytes
         An object file of this processor.
+
+    Attributes
+    ----------
+    digest : str
+        Of the code: libraries of one digest give the same to the last bit.
     """
 
     def __init__(self, code: bytes) -> None:
+        self.digest = hashlib.sha256(code).hexdigest()
         import llvmlite.binding as llvm
 
         llvm.initialize_native_target()
@@ -238,6 +244,7 @@ def _build(target: str) -> None:
     """Run `build` in a fresh process that finds the same packages, and no settings of numba."""
     command = f"import sys; sys.path[:] = {sys.path!r}; from {__package__} import build; "
     kept = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
+    kept["PYTHONHASHSEED"] = "0"  # the order of sets is that of the code
     done = subprocess.run(
         [sys.executable, "-c", f"{command}build.main({target!r})"],
         check=False,
