@@ -1,6 +1,6 @@
 """Python's side of the compiled chain: arrays in and out, one call for each question.
 
-`riccati.lanes.kernel` holds all that is compiled; `modes.kernel` loads this module where it pays.
+This module is a backend, as `riccati.readable` is: both answer the same calls.
 """
 
 from __future__ import annotations

@@ -15,8 +15,7 @@ c = m omega^2 h^4/EI, the solution is made of G0 and its derivatives G1, G2, G3,
 polynomials in c whose coefficients depend on the segment alone (docs/theory/lanes.md). Counts are
 those of Wittrick and Williams, joint by joint in segments too short for roots of their own.
 
-All numbers are made dimensionless by the chain's length, mean EI and mean m. Numba keeps compiled
-code by the date of one file: all that is compiled together stands here. Python's side of it is
+All numbers are made dimensionless by the chain's length, mean EI and mean m. Python's side of it is
 `riccati.lanes.calls`.
 """
 
