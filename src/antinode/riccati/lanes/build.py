@@ -162,11 +162,15 @@ def _optimised(parts: list[Any], symbols: dict[str, str]) -> bytes:
             function.name = symbols[function.name]
         elif not function.is_declaration:
             function.linkage = "internal"
-    for settings in (
-        {"cost": "cheap", "opt": 0, "loop_vectorize": False, "slp_vectorize": False},
-        {},
-    ):
-        manager, builder = codegen._module_pass_manager(**settings)
+    for speed, vectorise in ((0, False), (3, True)):  # first short functions into their callers
+        settings = llvm.create_pipeline_tuning_options(speed_level=speed)
+        settings.loop_vectorization, settings.slp_vectorization = vectorise, False
+        builder = llvm.create_pass_builder(codegen._tm, settings)
+        manager = builder.getModulePassManager()
+        if not speed:
+            manager.add_loop_rotate_pass()
+            manager.add_instruction_combine_pass()
+            manager.add_jump_threading_pass()
         manager.run(whole, builder)
     whole.verify()
     outside = {f.name for f in whole.functions if f.is_declaration and "llvm." not in f.name}
