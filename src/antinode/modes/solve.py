@@ -126,10 +126,12 @@ def solve_modes(
 def solve_one(problem: Beam | HasBeam, modes: int = 6, **settings: Any) -> ModalResult:
     """Compute what `solve_modes` does, for a command that solves one problem and ends.
 
-    A small one is solved by numpy, so that a fresh install answers before anything is compiled.
+    A small one is solved by numpy, so that a fresh install answers before anything is compiled. An
+    interval in which something varies counts as the segments of its first three representations.
     """
     beam = problem if isinstance(problem, Beam) else problem.beam()
-    return solve_modes(beam, modes, backend=for_one(len(beam.x), modes), **settings)
+    segments = max(int(np.sum(np.where(beam.varies(f), 14, 1))) for f in beam.families)
+    return solve_modes(beam, modes, backend=for_one(segments, modes), **settings)
 
 
 def _modes_of(
