@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import App, Parameter
 
-from antinode import __version__
 from antinode.errors import ComputationError, InputError
 from antinode.examples import EXAMPLES, write_example
 from antinode.show.outcome import check_plot, draw, print_json, say_notes, say_written
 from antinode.text import short
+from antinode.version import __version__
 
 from .options import (
     BeamSet,
@@ -165,7 +165,7 @@ def loads(case: Path, /, *, set_: Set = (), output: Output = _OUTPUT) -> None:
 
         draw(plot_loads(problem), output.plot)
     if output.file:
-        from antinode.show.dataset import write_result
+        from antinode.show.writing import write_result
 
         write_result(output.file, data, lambda: loads_csv(problem), lambda: loads_dataset(problem))
         say_written(output.file)
@@ -418,7 +418,7 @@ def _check_output(output: Output, *, modal: bool = False) -> None:
 
         check_modal_output(output.file)
     elif output.file:
-        from antinode.show.dataset import ENDINGS, check_output
+        from antinode.show.writing import ENDINGS, check_output
 
         check_output(output.file, ENDINGS)
     check_plot(output.plot)

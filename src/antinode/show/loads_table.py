@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from antinode import __version__
 from antinode.extras import import_extra
+from antinode.version import __version__
 
 if TYPE_CHECKING:
     import xarray
