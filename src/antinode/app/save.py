@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 
 from antinode.inputs.toml_writing import toml_text, with_values
-from antinode.show.loads_table import condition_dict, loads_summary
+from antinode.show.loads_table import modes_dict
 from antinode.show.tables import modal_table
 from antinode.show.writing import to_json, write_result
 
@@ -60,11 +60,7 @@ def result_file(picture: Picture, ending: str) -> bytes:
     """
     result = picture.full
     assert result is not None
-    data = result.to_dict()
-    if picture.case is not None:
-        data["condition"] = condition_dict(picture.case)
-        data["loads"] = loads_summary(picture.case)
-        data["warnings"] = picture.warnings
+    data = result.to_dict() if picture.case is None else modes_dict(picture.case, result)
     if ending == ".csv":
         return modal_table(result).encode()
     if ending == ".json":
