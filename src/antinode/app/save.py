@@ -12,7 +12,7 @@ from antinode.show.loads_table import modes_dict
 from antinode.show.tables import modal_table
 from antinode.show.writing import to_json, write_result
 
-from .compute import Picture
+from .compute import Answer
 from .state import State, with_changes
 
 
@@ -50,7 +50,7 @@ def report_file(state: State, ending: str) -> bytes:
         return output.read_bytes()
 
 
-def result_file(picture: Picture, ending: str) -> bytes:
+def result_file(answer: Answer, ending: str) -> bytes:
     """Return a full result as a file: .csv, .json or .nc, as the command line writes it.
 
     Raises
@@ -58,9 +58,9 @@ def result_file(picture: Picture, ending: str) -> bytes:
     InputError
         If a library for it is not installed.
     """
-    result = picture.full
+    result = answer.full
     assert result is not None
-    data = result.to_dict() if picture.case is None else modes_dict(picture.case, result)
+    data = result.to_dict() if answer.case is None else modes_dict(answer.case, result)
     if ending == ".csv":
         return modal_table(result).encode()
     if ending == ".json":

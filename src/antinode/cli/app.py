@@ -30,11 +30,11 @@ COMMANDS = {
     "verify": ("verify:verify", 6),
     "reproduce": ("reproduce:reproduce", 7),
     "sweep": ("sweep:sweep", 8),
-    "sensitivity": ("sensitivity:sensitivity", 8),
-    "identify": ("identify:identify", 8),
-    "convert": ("convert:convert", 9),
-    "app": ("page:page", 10),
-    "report": ("report:report", 12),
+    "sensitivity": ("sensitivity:sensitivity", 9),
+    "identify": ("identify:identify", 10),
+    "convert": ("convert:convert", 11),
+    "app": ("page:page", 12),
+    "report": ("report:report", 13),
 }
 """Where each command stands under `cli/commands`, and its place in the help."""
 
