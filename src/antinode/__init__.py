@@ -11,8 +11,6 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
-
 if TYPE_CHECKING:
     from .beam.beam import Beam
     from .beam.ends import Ends
@@ -34,6 +32,7 @@ if TYPE_CHECKING:
     from .vehicle.loads import Loads, compute_loads
     from .vehicle.options import Model
     from .vehicle.vehicle import Cavitator, FinSet, Stations, Vehicle
+    from .version import __version__
 
 _HOME = {
     "BatchResult": "modes.batch",
@@ -71,6 +70,7 @@ _HOME = {
     "FinSet": "vehicle.vehicle",
     "Stations": "vehicle.vehicle",
     "Vehicle": "vehicle.vehicle",
+    "__version__": "version",
 }
 
 __all__ = [

@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 _SYSTEM = ("/dev/", "/proc/")
 
 
-def write_file(path: Path, write: Callable[[Path], None]) -> None:
+def write_file(path: Path, write: Callable[[Path], object]) -> None:
     """Write a file by a function that writes it under another name.
 
     Raises

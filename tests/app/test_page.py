@@ -30,7 +30,7 @@ def visit(action, example="starter", complaint=""):
             await user.open("/")
             page = pages[0]
             page.session.again()
-            await result(page, lambda s: s.picture and s.picture.full)
+            await result(page, lambda s: s.answer and s.answer.full)
             await action(user, page)
 
     run_async(main())
@@ -53,24 +53,24 @@ def one(user, marker):
 def test_a_slider_moves_the_case_and_its_field():
     async def act(user, page):
         one(user, "slider-condition.speed").value = 100.0
-        await result(page, lambda s: s.picture.case.condition.speed == 100.0)
+        await result(page, lambda s: s.answer.case.condition.speed == 100.0)
         assert one(user, "field-condition.speed").value == "100"
         user.find("Undo").click()
-        await result(page, lambda s: s.picture.case.condition.speed == 80.0)
+        await result(page, lambda s: s.answer.case.condition.speed == 80.0)
         assert one(user, "field-condition.speed").value == "80"
         assert one(user, "slider-condition.speed").value == 80.0
 
     visit(act)
 
 
-def test_a_wrong_field_keeps_the_last_good_picture():
+def test_a_wrong_field_keeps_the_last_good_answer():
     async def act(user, page):
-        before = page.session.picture
+        before = page.session.answer
         user.find(marker="field-condition.thrust").clear().type("many").trigger("keydown.enter")
         await result(page, lambda s: s.error)
         assert "condition.thrust is 'many'; it needs a number" in page.session.error
         await user.should_see("condition.thrust is 'many'")
-        assert page.session.picture is before
+        assert page.session.answer is before
 
     visit(act)
 
@@ -78,9 +78,9 @@ def test_a_wrong_field_keeps_the_last_good_picture():
 def test_cavitation_number_gives_way_to_depth():
     async def act(user, page):
         one(user, "cavitation").value = "condition.depth"
-        await result(page, lambda s: s.picture.case.condition.cavitation_number is None)
+        await result(page, lambda s: s.answer.case.condition.cavitation_number is None)
         await user.should_see("depth")
-        assert page.session.picture.case.loads.sigma == pytest.approx(0.02, rel=1e-5)
+        assert page.session.answer.case.loads.sigma == pytest.approx(0.02, rel=1e-5)
 
     visit(act)
 
@@ -89,7 +89,7 @@ def test_a_beam_has_no_vehicle():
     async def act(user, page):
         await user.should_not_see("Vehicle in its cavity, to scale, with the forces on it")
         one(user, "end-right").value = "pinned"
-        await result(page, lambda s: s.picture.beam.ends.right == "pinned")
+        await result(page, lambda s: s.answer.beam.ends.right == "pinned")
 
     visit(act, "tower")
 
@@ -107,9 +107,9 @@ def test_equipment_is_checked_and_kept():
 def test_opening_an_example_can_be_undone():
     async def act(user, page):
         user.find(marker="example-drill_string").click()
-        await result(page, lambda s: s.picture.case is None)
+        await result(page, lambda s: s.answer.case is None)
         user.find("Undo").click()
-        await result(page, lambda s: s.picture.case is not None)
+        await result(page, lambda s: s.answer.case is not None)
         await user.should_see("Vehicle in its cavity, to scale, with the forces on it")
 
     visit(act)
@@ -138,7 +138,7 @@ def test_a_newer_change_ends_the_work_on_an_older_one():
         for speed in range(81, 99):
             page.session.change({"condition.speed": float(speed)}, moving="condition.speed")
             await asyncio.sleep(0.005)
-        await result(page, lambda s: s.picture.case.condition.speed == 98.0 and s.picture.full)
+        await result(page, lambda s: s.answer.case.condition.speed == 98.0 and s.answer.full)
         assert page.session.history.undo().problem.condition.speed == 80.0
 
     visit(act)

@@ -4,6 +4,7 @@ import json
 import tomllib
 import zlib
 from base64 import urlsafe_b64encode
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,12 +12,12 @@ import pytest
 pytest.importorskip("nicegui", reason="nicegui is not installed (extra web)")
 
 from antinode import load_case, solve_modes
-from antinode.app.compute import full_picture, quick_picture
+from antinode.app.compute import full_answer, quick_answer
 from antinode.app.curve import curve_key, grow_curve
 from antinode.app.display import SYSTEMS, number_text, shown_unit
+from antinode.app.equipment import equipment
 from antinode.app.fields import swapped_cavitation
 from antinode.app.inputs import find_input, numbers, sliders
-from antinode.app.page import equipment
 from antinode.app.panels.frequencies import baseline_of, frequencies_data
 from antinode.app.panels.numbers import short_list
 from antinode.app.quick import quick_modes
@@ -26,6 +27,8 @@ from antinode.app.state import File, History, State, fields_of, packed, unpacked
 from antinode.app.stations import columns_of, shown_rows, si_table
 from antinode.errors import InputError
 from antinode.examples import EXAMPLES, write_example
+from antinode.inputs.toml_writing import plain
+from cli_run import run
 
 
 def starter(**changes):
@@ -174,7 +177,7 @@ def test_a_wrong_file_ends_in_a_sentence_without_paths(files, say):
 @pytest.mark.parametrize("example", EXAMPLES)
 def test_quick_modes_are_within_a_ten_thousandth(example):
     state = State(read_example(example))
-    quick = quick_picture(state).quick
+    quick = quick_answer(state).quick
     result = solve_modes(state.problem, len(quick.omega2), families=["bending"])
     exact = np.array([m.omega2 for m in result.modes if m.number][: len(quick.omega2)])
     assert np.abs(np.sqrt(quick.omega2 / exact) - 1).max() < 1e-4
@@ -197,14 +200,14 @@ def test_quick_modes_past_buckling():
     assert quick.omega2 == pytest.approx(exact[:3], rel=1e-4)
 
 
-def test_the_full_picture_is_what_the_command_line_computes():
+def test_the_full_answer_is_what_the_command_line_computes():
     state = starter()
-    picture = full_picture(state)
+    answer = full_answer(state)
     result = solve_modes(state.problem, 6, unloaded=True)
     omega2 = [m.omega2 for m in result.modes]
-    assert [m.omega2 for m in picture.full.modes] == pytest.approx(omega2, rel=1e-9)
-    assert picture.full.modes[2].shift == pytest.approx(result.modes[2].shift, rel=1e-9)
-    assert full_picture(starter()) is picture  # kept
+    assert [m.omega2 for m in answer.full.modes] == pytest.approx(omega2, rel=1e-9)
+    assert answer.full.modes[2].shift == pytest.approx(result.modes[2].shift, rel=1e-9)
+    assert full_answer(starter()) is answer  # kept
 
 
 def test_the_curve_grows_and_knows_what_it_depends_on():
@@ -274,7 +277,7 @@ def test_a_value_outside_widens_its_slider():
 def test_modes_near_band_and_lines_are_flagged():
     view = {"band": (18.0, 25.0), "lines": (50.0,), "margin": 0.05}
     state = starter().viewed(**view)
-    rows = frequencies_data(full_picture(state), state.view)["rows"]
+    rows = frequencies_data(full_answer(state), state.view)["rows"]
     assert [row["flag"] for row in rows] == [
         "",
         "",
@@ -286,11 +289,11 @@ def test_modes_near_band_and_lines_are_flagged():
 
 
 def test_a_baseline_shows_the_change():
-    pinned = starter().viewed(baseline=baseline_of(full_picture(starter())))
-    rows = frequencies_data(full_picture(pinned), pinned.view)["rows"]
+    pinned = starter().viewed(baseline=baseline_of(full_answer(starter())))
+    rows = frequencies_data(full_answer(pinned), pinned.view)["rows"]
     assert {row["change"] for row in rows} == {"0.00%"}
     faster = pinned.changed({"condition.speed": 120.0})
-    rows = frequencies_data(full_picture(faster), faster.view)["rows"]
+    rows = frequencies_data(full_answer(faster), faster.view)["rows"]
     assert rows[0]["change"] == "-3.67%"
 
 
@@ -340,11 +343,11 @@ def test_shown_units():
 
 
 def test_results_as_files(tmp_path):
-    picture = full_picture(starter())
-    assert result_file(picture, ".csv").startswith(b"family,number,name,kind,frequency_hz [Hz]")
-    assert json.loads(result_file(picture, ".json"))["condition"]["speed_m_per_s"] == 80.0
+    answer = full_answer(starter())
+    assert result_file(answer, ".csv").startswith(b"family,number,name,kind,frequency_hz [Hz]")
+    assert json.loads(result_file(answer, ".json"))["condition"]["speed_m_per_s"] == 80.0
     pytest.importorskip("h5netcdf", reason="h5netcdf is not installed (extra dataset)")
-    assert result_file(picture, ".nc")[1:4] == b"HDF"
+    assert result_file(answer, ".nc")[1:4] == b"HDF"
 
 
 def test_the_report_of_a_state():
@@ -364,3 +367,24 @@ def test_an_error_finds_its_field():
     paths = ("condition.speed", "condition.thrust")
     assert fields_of("case.toml: condition.thrust is 'x'; no", paths) == "condition.thrust"
     assert fields_of("something else", paths) == ""
+
+
+def test_a_saved_case_keeps_the_comments_of_its_file(tmp_path):
+    assert run("init", "--beam", tmp_path).code == 0
+    text = (tmp_path / "beam.toml").read_text(encoding="utf-8")
+    state = State(read_file(tmp_path / "beam.toml"))
+    assert case_toml(state) == text
+    saved = case_toml(state.changed({"beam.ends.left": "pinned"}))
+    pairs = zip(text.splitlines(), saved.splitlines(), strict=True)
+    assert [new.partition(" ")[0] for old, new in pairs if old != new] == ["left"]
+    again = state.from_query(replace(state, file=replace(state.file, own=False)).query())
+    assert case_toml(again) == text
+
+
+def test_a_link_with_a_text_that_is_no_toml_saves_the_tables(tmp_path):
+    state = starter()
+    for text in ("a = ", "a." * 5000 + "a = 1", 7):
+        data = {"origin": "x", "tables": plain(state.file.tables), "text": text}
+        opened = state.from_query({"case": packed(data)})
+        assert opened.file.text == ""
+        assert tomllib.loads(case_toml(opened)) == data["tables"]

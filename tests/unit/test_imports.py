@@ -8,6 +8,7 @@ import ast
 import json
 import subprocess
 import sys
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -65,9 +66,14 @@ def modules():
 
 def imports(name, path):
     """What a module imports of antinode when it is imported itself."""
+    return imported(name, path, ast.parse(path.read_text(encoding="utf-8")).body)
+
+
+def imported(name, path, body):
+    """What a module imports of antinode by the statements of a body."""
     package = ["antinode", *name.split(".")]
     package = package if path.name == "__init__.py" else package[:-1]
-    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+    for node in body:
         if isinstance(node, ast.Import):
             found = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -106,6 +112,25 @@ def test_no_folder_is_so_large_that_nobody_finds_anything():
     for folder in {path.parent for path in FILES.values()}:
         most = MOST_IN_ROOT if folder == ROOT else MOST_FILES
         assert len(list(folder.glob("*.py"))) <= most, folder
+
+
+def every_import(node):
+    """What is imported anywhere below a node, but for the types alone."""
+    for inner in ast.iter_child_nodes(node):
+        if isinstance(inner, ast.If) and ast.unparse(inner.test) == "TYPE_CHECKING":
+            continue
+        if isinstance(inner, ast.Import | ast.ImportFrom):
+            yield inner
+        yield from every_import(inner)
+
+
+def test_no_import_runs_in_a_circle_lazy_ones_included():
+    graph = {}
+    for name, path in modules():
+        body = list(every_import(ast.parse(path.read_text(encoding="utf-8"))))
+        graph[f"antinode.{name}"] = set(imported(name, path, body)) - {f"antinode.{name}"}
+    assert graph["antinode.cli.commands.modes"] >= {"antinode.show.printing"}  # a lazy one
+    TopologicalSorter(graph).prepare()  # raises CycleError
 
 
 def test_the_imports_are_seen():

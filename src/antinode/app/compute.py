@@ -32,7 +32,7 @@ MOST_MODES = 12
 
 
 @dataclass(frozen=True)
-class Picture:
+class Answer:
     """All that a page shows of one problem.
 
     Parameters
@@ -76,7 +76,7 @@ def wanted_modes(problem: Problem) -> int:
     return min(problem.solve.modes, MOST_MODES)
 
 
-def quick_picture(state: State) -> Picture:
+def quick_answer(state: State) -> Answer:
     """Compute what changes while a slider moves: loads, bending modes to 1e-4.
 
     Raises
@@ -85,17 +85,17 @@ def quick_picture(state: State) -> Picture:
         If the input is wrong or nothing can be computed.
     """
 
-    def compute() -> Picture:
+    def compute() -> Answer:
         problem = state.problem
         beam = problem.beam()
-        picture = Picture(problem, beam, quick_modes(beam, wanted_modes(problem)))
-        _ = picture.characteristic
-        return picture
+        answer = Answer(problem, beam, quick_modes(beam, wanted_modes(problem)))
+        _ = answer.characteristic
+        return answer
 
     return _kept(("quick", state.key), compute)
 
 
-def full_picture(state: State) -> Picture:
+def full_answer(state: State) -> Answer:
     """Compute everything to the tolerance of the file, with brackets, counts and shifts.
 
     Raises
@@ -104,12 +104,12 @@ def full_picture(state: State) -> Picture:
         If the input is wrong or nothing can be computed.
     """
 
-    def compute() -> Picture:
-        quick, solve = quick_picture(state), state.problem.solve
+    def compute() -> Answer:
+        quick, solve = quick_answer(state), state.problem.solve
         result = solve_modes(quick.beam, solve.modes, tolerance=solve.tolerance, unloaded=True)
-        picture = Picture(quick.problem, quick.beam, _exact(quick.quick, result), result)
-        picture.__dict__["characteristic"] = quick.characteristic
-        return picture
+        answer = Answer(quick.problem, quick.beam, _exact(quick.quick, result), result)
+        answer.__dict__["characteristic"] = quick.characteristic
+        return answer
 
     return _kept(("full", state.key), compute)
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from nicegui import ui
 
 from antinode.vehicle.case import Case
@@ -121,8 +119,8 @@ class Fields:
     session : Session
     """
 
-    def __init__(self, session: Session, rebuilt: Callable[[], None] | None = None) -> None:
-        self._session, self._rebuilt = session, rebuilt
+    def __init__(self, session: Session) -> None:
+        self._session = session
         self._fields: dict[str, Field] = {}
         self._kind: tuple[object, ...] = ()
         self._box = ui.element("div").classes("an-fields")
@@ -157,9 +155,9 @@ class Fields:
 
     def _swap(self, path: str) -> None:
         """Give depth in place of the cavitation number, or the other way; nothing else changes."""
-        picture = self._session.picture
-        if picture is not None and picture.case is not None:
-            self._session.change(swapped_cavitation(picture.case, path))
+        answer = self._session.answer
+        if answer is not None and answer.case is not None:
+            self._session.change(swapped_cavitation(answer.case, path))
 
     def complain(self, path: str, sentence: str) -> None:
         """Say what is wrong at its field, or below all of them."""

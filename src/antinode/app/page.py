@@ -6,24 +6,25 @@ static/app.css, what is drawn in a picture in the scripts beside it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 from nicegui import events, ui
 from nicegui.client import Client
 
 from antinode.beam.families import FAMILIES, FamilyName
-from antinode.errors import AntinodeError, InputError
+from antinode.errors import AntinodeError
 from antinode.examples import EXAMPLES
 
 from .display import SYSTEMS
+from .downloads import Downloads
 from .elements import Board, Picture, style_sheet
+from .equipment import EquipmentFields
 from .fields import Fields
 from .inputs import Input, numbers, sliders
-from .save import case_toml, report_file, result_file
+from .parts import SMALL, card, head_button, section, uploader
 from .session import Session
-from .source import MOST_BYTES, read_dropped, read_example
+from .source import read_dropped, read_example
 from .state import State
 from .stations import StationsDialog
 
@@ -52,11 +53,12 @@ class Page:
         self._client: Client = ui.context.client
         self._dark = ui.dark_mode(state.view.dark)
         self.session = Session(state, self)
+        self._downloads = Downloads(self.session, self._note)
         self._playing = False
         with ui.element("div").classes("an-app"):
             self._board = Board()
             self._board.on("ready", self._ready)
-            self._upload = _uploader(self._dropped)
+            self._upload = uploader(self._dropped)
             self._head = ui.element("header").classes("an-head")
             self._side = ui.element("aside").classes("an-side").props('aria-label="Inputs"')
             self._main = ui.element("main").classes("an-main")
@@ -118,23 +120,17 @@ class Page:
         what = "vehicle in motion" if state.is_vehicle else "beam"
         ui.label(f"{state.file.origin} · {what}").classes("an-origin")
         ui.space()
-        with _button("Open", "folder_open"), ui.menu().props("auto-close"):
+        with head_button("Open", "folder_open"), ui.menu().props("auto-close"):
             ui.menu_item("A file … (or drop it on the page)", self._board.choose)
             ui.separator()
             for example in (e for e, run in EXAMPLES.items() if "sweep" not in run):
                 words = f"Example: {example.replace('_', ' ')}"
                 ui.menu_item(words, self._opener(example)).mark(f"example-{example}")
-        _button("Stations", "table_rows", self._stations.open)
-        self._undo = _button("Undo", "undo", self.session.undo)
-        with _button("Save", "download"), ui.menu().props("auto-close"):
-            ui.menu_item("The case, as TOML", self._save_case)
-            ui.separator()
-            for ending, what in ((".csv", "table"), (".json", "all numbers"), (".nc", "shapes")):
-                ui.menu_item(f"Results, {ending} ({what})", self._saver(ending))
-            ui.separator()
-            for ending in (".html", ".pdf"):
-                ui.menu_item(f"The report, {ending}", self._reporter(ending))
-        _button("Link", "link", self._copy_link)
+        head_button("Stations", "table_rows", self._stations.open)
+        self._undo = head_button("Undo", "undo", self.session.undo)
+        with head_button("Save", "download"), ui.menu().props("auto-close"):
+            self._downloads.build_menu()
+        head_button("Link", "link", self._copy_link)
         ui.separator().props("vertical").classes("an-rule")
         ui.select(list(SYSTEMS), value=state.view.units, on_change=self._units).props(
             'dense borderless options-dense aria-label="Units"'
@@ -144,14 +140,14 @@ class Page:
 
     def _build_side(self) -> None:
         vehicle = self.session.state.is_vehicle
-        with _section("Condition" if vehicle else "Loads and attachments"):
+        with section("Condition" if vehicle else "Loads and attachments"):
             hint = "Move a slider, or type a number, with its own unit if you like."
             ui.label(hint).classes("an-hint")
             self._fields = Fields(self.session)
             if not vehicle:
                 self._ends()
-        with _section("Equipment band and excitation [Hz]"):
-            self._equipment()
+        with section("Equipment band and excitation [Hz]"):
+            EquipmentFields(self.session)
         with ui.element("section").classes("an-section an-notes"):
             Picture("notes", "Results, warnings and ranges of validity", role="region")
 
@@ -172,20 +168,6 @@ class Page:
     def _end_setter(self, side: str) -> Callable[[events.ValueChangeEventArguments[Any]], None]:
         return lambda e: self.session.change({f"beam.ends.{side}": str(e.value)})
 
-    def _equipment(self) -> None:
-        view = self.session.state.view
-        low, high = (f"{v:g}" for v in view.band) if view.band else ("", "")
-        lines = ", ".join(f"{v:g}" for v in view.lines)
-        with ui.element("div").classes("an-four"):
-            self._band = [
-                _small_field(label, value, self._set_equipment)
-                for label, value in (("from", low), ("to", high))
-            ]
-            self._lines = _small_field("lines", lines, self._set_equipment)
-            self._margin = _small_field("± %", f"{100 * view.margin:g}", self._set_equipment)
-        self._equipment_message = ui.label("").classes("an-message").props('role="alert"')
-        self._equipment_message.visible = False
-
     def _build_pictures(self, vehicle: bool) -> None:
         families = self.session.state.families
         if self.session.state.view.family not in families:  # that of another file
@@ -193,18 +175,18 @@ class Page:
         view = self.session.state.view
         if vehicle:
             title = "Vehicle in its cavity, to scale, with the forces on it"
-            with _card("vehicle", title):
+            with card("vehicle", title):
                 pass
-        with _card("frequencies", "Frequencies"):
+        with card("frequencies", "Frequencies"):
             ui.toggle(
                 {name: name.capitalize() for name in families},
                 value=view.family,
                 on_change=lambda e: self._family(e.value),
-            ).props(_SMALL).mark("family")
+            ).props(SMALL).mark("family")
             self._pin = ui.button("Pin", color=None, on_click=self.session.pin).props(
                 'flat dense no-caps size=sm aria-label="Pin the frequencies as baseline"'
             )
-        with _card("modes", "Mode shapes"):
+        with card("modes", "Mode shapes"):
             self._mode_buttons()
             self._component = (
                 ui.select(
@@ -218,13 +200,13 @@ class Page:
             self._play = ui.button(icon="play_arrow", color=None, on_click=self._toggle_play).props(
                 'flat dense round size=sm aria-label="Let the modes vibrate"'
             )
-        with _card("forces", "Forces inside the body" if vehicle else "Axial force"):
+        with card("forces", "Forces inside the body" if vehicle else "Axial force"):
             pass
-        with _card("curve", "Frequencies [Hz] against"):
+        with card("curve", "Frequencies [Hz] against"):
             self._curve_select()
-        with _card("characteristic", "Characteristic function, zero at every mode"):
+        with card("characteristic", "Characteristic function, zero at every mode"):
             pass
-        with _card("body", "Body in mode"):
+        with card("body", "Body in mode"):
             count = self._modes_shown()
             ui.select(
                 list(range(1, count + 1)),
@@ -298,19 +280,6 @@ class Page:
         self.session.look(dark=dark)
         self._board.retheme()
 
-    def _set_equipment(self) -> None:
-        """Take band, lines and margin, or say what is wrong with them."""
-        try:
-            how = equipment(
-                *(str(field.value or "") for field in (*self._band, self._lines, self._margin))
-            )
-        except InputError as error:
-            self._equipment_message.text = str(error)
-            self._equipment_message.visible = True
-            return
-        self._equipment_message.visible = False
-        self.session.look(**how)
-
     def _opener(self, example: str) -> Callable[[], None]:
         return lambda: self._open(lambda: read_example(example))
 
@@ -328,38 +297,6 @@ class Page:
             return
         self.session.open(file)
         self.rebuild()
-
-    def _save_case(self) -> None:
-        try:
-            text = case_toml(self.session.state)
-        except AntinodeError as error:
-            self._note(str(error))
-            return
-        ui.download.content(text, "case.toml" if self.session.state.is_vehicle else "beam.toml")
-
-    def _saver(self, ending: str) -> Callable[[], Any]:
-        async def save() -> None:
-            try:
-                content = result_file(await self.session.full(), ending)
-            except AntinodeError as error:
-                self._note(str(error))
-                return
-            ui.download.content(content, f"modes{ending}")
-
-        return save
-
-    def _reporter(self, ending: str) -> Callable[[], Any]:
-        async def save() -> None:
-            ui.notify("The report is being written …", position="bottom-right")
-            state = self.session.state
-            try:
-                content = await self.session.run(lambda: report_file(state, ending))
-            except AntinodeError as error:
-                self._note(str(error))
-                return
-            ui.download.content(content, f"report{ending}")
-
-        return save
 
     def _copy_link(self) -> None:
         try:
@@ -394,93 +331,8 @@ class Page:
             self._toggle_play()
 
 
-_SMALL = "dense flat no-caps size=sm"
-
-
 def _name(state: State) -> str:
     try:
         return state.original.beam().name
     except AntinodeError:
         return state.file.origin
-
-
-def _button(text: str, icon: str, click: Callable[[], Any] | None = None) -> ui.button:
-    button = ui.button(text, icon=icon, color=None, on_click=click)
-    return button.props("flat dense no-caps").classes("an-headbutton").mark(text.lower())
-
-
-@contextmanager
-def _section(title: str) -> Iterator[None]:
-    with ui.element("section").classes("an-section"):
-        ui.label(title).classes("an-title").props('role="heading" aria-level="2"')
-        yield
-
-
-@contextmanager
-def _card(kind: str, title: str) -> Iterator[None]:
-    """Build a panel: its title with controls beside it, and its picture below."""
-    role = "region" if kind == "frequencies" else "img"
-    with ui.element("section").classes(f"an-card an-at-{kind}"):
-        with ui.element("div").classes("an-cardhead"):
-            ui.label(title).classes("an-title").props('role="heading" aria-level="2"')
-            yield
-        Picture(kind, title, role=role)
-
-
-def _small_field(label: str, value: str, taken: Callable[[], None]) -> ui.input:
-    field = ui.input(label, value=value).props(f'dense outlined aria-label="{label}" maxlength=80')
-    field.on("keydown.enter", taken)
-    field.on("blur", taken)
-    return field.classes("an-small").mark(label.partition(" [")[0])
-
-
-def _uploader(taken: Callable[[events.MultiUploadEventArguments], Any]) -> ui.upload:
-    return (
-        ui.upload(
-            multiple=True,
-            auto_upload=True,
-            max_total_size=MOST_BYTES,
-            max_files=10,
-            on_multi_upload=taken,
-            on_rejected=lambda: ui.notify(
-                f"These files are refused: at most 10, and {MOST_BYTES / 1e6:g} MB together.",
-                type="negative",
-            ),
-        )
-        .classes("an-upload")
-        .props('aria-hidden="true" accept=".toml,.csv"')
-    )
-
-
-def equipment(low: str, high: str, lines: str, margin: str) -> dict[str, Any]:
-    """Read band [Hz], excitation lines [Hz] and margin [%] as they were typed.
-
-    Raises
-    ------
-    InputError
-        If one of them is wrong.
-    """
-    ends = [_hertz("equipment band", text) for text in (low, high) if text.strip()]
-    if len(ends) == 1:
-        raise InputError("equipment band: one end is missing; give both, or none")
-    if len(ends) == 2 and ends[0] >= ends[1]:
-        raise InputError(f"equipment band: {low} to {high} Hz is empty; give the lower end first")
-    found = [
-        _hertz("excitation lines", text)
-        for text in lines.replace(";", ",").split(",")
-        if text.strip()
-    ]
-    share = _hertz("margin", margin.replace("%", "") or "0") / 100
-    if share > 0.5:
-        raise InputError(f"margin: received {margin} %; at most 50 % is allowed")
-    return {"band": tuple(ends) or None, "lines": tuple(found), "margin": share}
-
-
-def _hertz(what: str, text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0 <= value < 1e6:
-        raise InputError(f"{what}: received '{text.strip()[:30]}'; give a number of at least 0")
-    return value

@@ -6,51 +6,51 @@ from typing import Any
 
 import numpy as np
 
-from .compute import Picture
+from .compute import Answer
 from .panels.numbers import short_list
 
 _RINGS = 61
 _SLENDER = 0.015  # radius over length of a beam whose radius nobody knows
 
 
-def body_data(picture: Picture, number: int) -> dict[str, Any]:
+def body_data(answer: Answer, number: int) -> dict[str, Any]:
     """Return rings of the body and the shape of a bending mode at them, over the length.
 
     Parameters
     ----------
-    picture : Picture
+    answer : Answer
     number : int
         Of the bending mode; the last one where there are fewer.
     """
-    quick, beam = picture.quick, picture.beam
+    quick, beam = answer.quick, answer.beam
     k = min(number, len(quick.omega2)) - 1
     x = np.linspace(beam.x[0], beam.x[-1], _RINGS)
     shape = np.interp(x, quick.x, quick.states[:, k, 0])
     omega2 = float(quick.omega2[k])
     return {
         "x": short_list((x - beam.x[0]) / beam.length),
-        "radius": short_list(_radius(picture, x) / beam.length),
+        "radius": short_list(_radius(answer, x) / beam.length),
         "shape": short_list(shape / (np.max(np.abs(shape)) or 1.0)),
         "number": k + 1,
         "hertz": float(np.sqrt(omega2) / (2 * np.pi)) if omega2 >= 0 else None,
-        "fins": _fins(picture),
+        "fins": _fins(answer),
     }
 
 
-def _radius(picture: Picture, x: np.ndarray) -> np.ndarray:
-    if picture.case is not None:
-        return np.asarray(picture.case.vehicle.radius_at(x))
-    gyration = picture.beam.radius_of_gyration
+def _radius(answer: Answer, x: np.ndarray) -> np.ndarray:
+    if answer.case is not None:
+        return np.asarray(answer.case.vehicle.radius_at(x))
+    gyration = answer.beam.radius_of_gyration
     if gyration is None:
-        return np.full(len(x), _SLENDER * picture.beam.length)
-    return np.full(len(x), max(float(np.mean(gyration)), 0.002 * picture.beam.length))
+        return np.full(len(x), _SLENDER * answer.beam.length)
+    return np.full(len(x), max(float(np.mean(gyration)), 0.002 * answer.beam.length))
 
 
-def _fins(picture: Picture) -> list[dict[str, float]]:
+def _fins(answer: Answer) -> list[dict[str, float]]:
     """Return every fin: place, chord and tip over the length, roll angle [rad]."""
-    if picture.case is None:
+    if answer.case is None:
         return []
-    vehicle, L = picture.case.vehicle, picture.beam.length
+    vehicle, L = answer.case.vehicle, answer.beam.length
     return [
         {
             "x": load.position / L,
@@ -58,6 +58,6 @@ def _fins(picture: Picture) -> list[dict[str, float]]:
             "tip": fins.tip_radius / L,
             "roll": float(angle),
         }
-        for fins, load in zip(vehicle.fins, picture.case.loads.fins, strict=True)
+        for fins, load in zip(vehicle.fins, answer.case.loads.fins, strict=True)
         for angle in fins.roll_angles
     ]

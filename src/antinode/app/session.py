@@ -1,6 +1,6 @@
 """One open page: takes changes, computes beside the event loop, sends what changed.
 
-A moving slider gets the quick picture and a coarse curve. Once it rests, the full one follows and
+A moving slider gets the quick answer and a coarse curve. Once it rests, the full one follows and
 the curve grows finer. A newer change ends the work on an older one at the next step.
 """
 
@@ -15,7 +15,7 @@ from urllib.parse import urlencode
 
 from antinode.errors import AntinodeError, InputError
 
-from .compute import Picture, full_picture, quick_picture
+from .compute import Answer, full_answer, quick_answer
 from .curve import Curve, curve_key, grow_curve
 from .inputs import Input, find_input, sliders
 from .panels.characteristic import characteristic_data
@@ -61,7 +61,7 @@ class Session:
 
     def __init__(self, state: State, face: Face) -> None:
         self.history = History(state)
-        self.picture: Picture | None = None
+        self.answer: Answer | None = None
         self.inputs: tuple[Input, ...] = ()
         self.error = ""
         self._face = face
@@ -110,8 +110,8 @@ class Session:
     def pin(self) -> None:
         """Pin the present frequencies as the baseline, or take the pin out."""
         pinned = bool(self.state.view.baseline)
-        if self.picture:
-            self.look(baseline=() if pinned else baseline_of(self.picture))
+        if self.answer:
+            self.look(baseline=() if pinned else baseline_of(self.answer))
 
     def forget(self) -> None:
         """Forget what the browser has: everything is sent anew."""
@@ -139,7 +139,7 @@ class Session:
                 return
 
     async def _quick(self, state: State) -> bool:
-        return await self._show(state, quick_picture, "")
+        return await self._show(state, quick_answer)
 
     async def _settled(self, state: State) -> bool:
         await asyncio.sleep(_SETTLED)
@@ -151,21 +151,21 @@ class Session:
         self.history.end_gesture()
 
     async def _full(self, state: State) -> bool:
-        done = await self._show(state, full_picture, "")
+        done = await self._show(state, full_answer)
         self._send({}, address=self._address(state))
         return done
 
-    async def _show(self, state: State, compute: Callable[[State], Picture], _: str) -> bool:
-        """Compute a picture and send it; on an error say so and keep the last one."""
+    async def _show(self, state: State, compute: Callable[[State], Answer]) -> bool:
+        """Compute an answer and send it; on an error say so and keep the last one."""
         try:
-            picture, data, inputs = await self.run(lambda: self._data(state, compute(state)))
+            answer, data, inputs = await self.run(lambda: self._data(state, compute(state)))
         except AntinodeError as error:
             self._fail(str(error))
             return False
         except Exception as error:
             self._fail(f"{type(error).__name__}: {error}; this is a bug in antinode")
             return False
-        self.picture, self.inputs, self.error = picture, inputs, ""
+        self.answer, self.inputs, self.error = answer, inputs, ""
         self._face.complain("", "")
         self._send(data, stale=False)
         self._face.refresh(inputs, self._dragged)
@@ -178,24 +178,24 @@ class Session:
         self._send({}, stale=True)
 
     def _data(
-        self, state: State, picture: Picture
-    ) -> tuple[Picture, dict[str, Any], tuple[Input, ...]]:
+        self, state: State, answer: Answer
+    ) -> tuple[Answer, dict[str, Any], tuple[Input, ...]]:
         """Work out what every panel shows."""
         view, inputs = state.view, sliders(state.problem, state.original)
         data = {
-            "forces": forces_data(picture, view.units),
-            "modes": modes_data(picture, view),
-            "frequencies": frequencies_data(picture, view),
-            "characteristic": characteristic_data(picture),
-            "notes": notes_data(picture, view.units),
-            "body": body_data(picture, view.body),
+            "forces": forces_data(answer, view.units),
+            "modes": modes_data(answer, view),
+            "frequencies": frequencies_data(answer, view),
+            "characteristic": characteristic_data(answer),
+            "notes": notes_data(answer, view.units),
+            "body": body_data(answer, view.body),
         }
-        if picture.case is not None:
-            data["vehicle"] = vehicle_data(picture.case, view.units)
+        if answer.case is not None:
+            data["vehicle"] = vehicle_data(answer.case, view.units)
         item = self.curve_input(state, inputs)
         if item is not None:
-            data["curve"] = self._curve_patch(state, item, picture)
-        return picture, data, inputs
+            data["curve"] = self._curve_patch(state, item, answer)
+        return answer, data, inputs
 
     def curve_input(self, state: State, inputs: tuple[Input, ...]) -> Input | None:
         """Return the input that the curve runs over."""
@@ -203,8 +203,8 @@ class Session:
         found = find_input(state.problem, state.original, chosen)
         return found or (inputs[0] if inputs else None)
 
-    def _curve_patch(self, state: State, item: Input, picture: Picture) -> dict[str, Any]:
-        omega2 = picture.quick.omega2
+    def _curve_patch(self, state: State, item: Input, answer: Answer) -> dict[str, Any]:
+        omega2 = answer.quick.omega2
         hertz = [None if w < 0 else (w**0.5) / 6.283185307179586 for w in omega2.tolist()]
         shown = [None if h is None else short_list([h], 5)[0] for h in hertz]
         patch: dict[str, Any] = {"cursor": cursor_data(item, shown, state.view.units)}
@@ -221,8 +221,8 @@ class Session:
 
     async def _grow(self, state: State, levels: int) -> bool:
         """Compute the curve so far that it has so many levels, and send each of them."""
-        item, picture = self.curve_input(state, self.inputs), self.picture
-        if item is None or picture is None:
+        item, answer = self.curve_input(state, self.inputs), self.answer
+        if item is None or answer is None:
             return True
         version, key = self._version, curve_key(state, item)
         have = self._curve.key == key if self._curve else False
@@ -236,7 +236,7 @@ class Session:
                 return False
             if len(curve.values) > points:
                 self._curve = curve
-                self._send({"curve": self._curve_patch(state, item, picture)})
+                self._send({"curve": self._curve_patch(state, item, answer)})
         return True
 
     async def run(self, work: Callable[[], Any]) -> Any:
@@ -264,7 +264,7 @@ class Session:
             return "/"
         return f"/?{query}" if query else "/"
 
-    async def full(self) -> Picture:
+    async def full(self) -> Answer:
         """Return the full result of the present state.
 
         Raises
@@ -273,8 +273,8 @@ class Session:
             If there is none.
         """
         state = self.state
-        picture: Picture = await self.run(lambda: full_picture(state))
-        return picture
+        answer: Answer = await self.run(lambda: full_answer(state))
+        return answer
 
 
 def _following(curves: Iterator[Curve]) -> Curve | None:

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path, PurePath
 
 from antinode.beam.file import COLUMNS as BEAM_COLUMNS
 from antinode.errors import AntinodeError, InputError
 from antinode.examples import EXAMPLES, write_example
-from antinode.inputs.reading import read_tables, read_toml
+from antinode.inputs.reading import read_tables, read_toml, toml_source
 from antinode.vehicle.case import COLUMNS as CASE_COLUMNS
 
 from .state import File, State
@@ -35,7 +36,7 @@ def read_file(path: Path, assignments: Iterable[str] = (), *, own: bool = True) 
     table = "beam" if "beam" in first and "vehicle" not in first else "vehicle"
     columns = BEAM_COLUMNS if table == "beam" else CASE_COLUMNS
     tables = read_tables(path, assignments, table, columns).tables
-    file = File(tables, path.name, own)
+    file = File(tables, path.name, own, toml_source(path))
     _ = State(file).problem
     return file
 
@@ -47,7 +48,7 @@ def read_example(name: str) -> File:
     with tempfile.TemporaryDirectory() as folder:
         written, _ = write_example(name, Path(folder))
         path = next(file for file in written if file.suffix == ".toml")
-        return File(read_file(path).tables, f"{name}.toml", own=False)
+        return replace(read_file(path, own=False), origin=f"{name}.toml")
 
 
 def read_dropped(files: Mapping[str, bytes]) -> File:

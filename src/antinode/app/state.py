@@ -15,14 +15,14 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Self
 
-import numpy as np
-
 from antinode.beam.families import BENDING, FamilyName
 from antinode.beam.file import BeamFile
 from antinode.beam.limits import check_limits
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import naming
+from antinode.inputs.toml_reading import parse_toml
+from antinode.inputs.toml_writing import plain
 from antinode.inputs.units import Frozen
 from antinode.vehicle.case import Case
 
@@ -65,16 +65,25 @@ class File:
         Name of the file, for messages.
     own : bool
         Whether the server was started with it: a link need not hold it.
+    text : str
+        The file as it is written, whose comments a saved one keeps; empty where it is not known.
     """
 
     tables: Tables
     origin: str
     own: bool = True
+    text: str = ""
 
     @cached_property
     def fingerprint(self) -> str:
         """What tells this file from others."""
         return hashlib.sha256(json.dumps(plain(self.tables)).encode()).hexdigest()
+
+    def packed(self) -> str:
+        """Return the file for a link, as it is written too where that is short enough."""
+        data = {"origin": self.origin, "tables": self.tables}
+        whole = packed({**data, "text": self.text})
+        return whole if len(whole) < LONGEST_LINK // 2 else packed(data)
 
 
 _VIEW = View()
@@ -157,7 +166,7 @@ class State:
         """
         found: dict[str, str] = {}
         if not self.file.own:
-            found["case"] = packed({"origin": self.file.origin, "tables": self.file.tables})
+            found["case"] = self.file.packed()
         if self.changes:
             found["set"] = _changes_text(self.changes)
         how = self.view.model_dump(exclude_defaults=True)
@@ -192,7 +201,17 @@ class State:
         if not isinstance(tables, dict) or not {"vehicle", "beam"} & set(tables):
             raise InputError("the link is damaged: it holds no case; check it")
         name = str(data.get("origin", "link"))[:100]
-        return replace(self, file=File(tables, name, own=False), changes={})
+        file = File(tables, name, own=False, text=_toml_or_nothing(data.get("text")))
+        return replace(self, file=file, changes={})
+
+
+def _toml_or_nothing(text: object) -> str:
+    """Return the text of a file that a link brings, if it is one."""
+    try:
+        parse_toml(str(text))
+    except ValueError:
+        return ""
+    return str(text)
 
 
 def _changes_text(changes: Mapping[str, Value]) -> str:
@@ -234,15 +253,6 @@ def unpacked(text: str) -> Any:
         return json.loads(content)
     except (ValueError, zlib.error, RecursionError) as error:
         raise InputError("the link is damaged: it cannot be unpacked; check it") from error
-
-
-def plain(data: Any) -> Any:
-    """Return data with arrays and tuples as lists, as JSON has them."""
-    if isinstance(data, Mapping):
-        return {str(key): plain(value) for key, value in data.items()}
-    if isinstance(data, list | tuple | np.ndarray):
-        return [plain(value) for value in data]
-    return data.item() if isinstance(data, np.generic) else data
 
 
 # --- changes of tables ----------------------------------------------------------------------

@@ -17,7 +17,7 @@ from cyclopts import CycloptsError, UnusedCliTokensError
 from antinode.errors import AntinodeError
 from antinode.text import one_line, short
 
-from .commands import app
+from .app import app, import_all
 
 _LONGEST = 600  # characters of a sentence
 _BUG = (
@@ -42,11 +42,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def _run(arguments: Sequence[str] | None) -> int:
     """Run a command and return the exit code; say why it failed."""
+    arguments = sys.argv[1:] if arguments is None else arguments
     debug = bool(os.environ.get("ANTINODE_DEBUG"))
     try:
         with warnings.catch_warnings():
             if not debug:
                 warnings.simplefilter("ignore")
+            if not arguments or arguments[0].startswith("-"):
+                import_all()
             app(arguments, print_error=False, exit_on_error=False, result_action="return_none")
         sys.stdout.flush()
     except CycloptsError as error:

@@ -7,8 +7,6 @@ forces and the rest gravity, or the acceleration of a free beam: `N(x) = sum of 
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -21,6 +19,7 @@ from antinode.beam.families import LONGITUDINAL
 from antinode.beam.file import BeamFile
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
+from antinode.inputs.toml_writing import toml_text
 
 from .tabulated import Hull, Stations, tabulate
 
@@ -140,39 +139,3 @@ def _check_force(beam: Beam, tables: dict[str, Any]) -> None:
             "the axial force of this beam grows with its mass, and several supports hold it "
             "axially: a beam file cannot hold that; write a .csv or .xlsx, which tabulate it"
         )
-
-
-def toml_text(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> str:
-    """Return nested tables as TOML: the keys of a table first, then the tables in it."""
-    inner = {key: v for key, v in table.items() if isinstance(v, Mapping) or _is_list_of_tables(v)}
-    lines = [f"{key} = {_value(v)}\n" for key, v in table.items() if key not in inner]
-    head = f"\n[{'.'.join(path)}]\n" if path and lines else ""
-    parts = [head, *lines]
-    for key, value in inner.items():
-        if isinstance(value, Mapping):
-            parts.append(toml_text(value, (*path, key)))
-        for entry in () if isinstance(value, Mapping) else value:
-            parts.append(f"\n[[{'.'.join((*path, key))}]]\n")
-            parts += [f"{k} = {_value(v)}\n" for k, v in entry.items()]
-    return "".join(parts) if path else "".join(parts).lstrip("\n")
-
-
-def _is_list_of_tables(value: object) -> bool:
-    return isinstance(value, list) and bool(value) and isinstance(value[0], Mapping)
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{k} = {_value(v)}" for k, v in value.items()) + " }"
-    if isinstance(value, list | tuple):
-        return f"[{', '.join(_value(v) for v in value)}]"
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, float) and not math.isfinite(value):
-        return "nan" if math.isnan(value) else ("inf" if value > 0 else "-inf")
-    return _text(value) if isinstance(value, str) else repr(value)
-
-
-def _text(text: str) -> str:
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + "".join(c if c.isprintable() else f"\\U{ord(c):08X}" for c in escaped) + '"'

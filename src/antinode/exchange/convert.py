@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import get_args
 
 from antinode.errors import InputError
-from antinode.show.dataset import check_output
+from antinode.show.writing import check_output
 from antinode.text import nearest, one_line
 
 from .formats import INPUTS, OUTPUTS, Format, format_of

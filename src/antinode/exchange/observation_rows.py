@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from antinode.beam.families import BENDING, LONGITUDINAL
-from antinode.show.dataset import to_json, write_text, write_whole
+from antinode.inputs.toml_writing import toml_text
+from antinode.show.writing import to_json, write_text, write_whole
 
-from .beam_toml import toml_text
 from .formats import Format
 
 FAMILIES = (BENDING, LONGITUDINAL)

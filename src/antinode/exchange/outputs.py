@@ -10,7 +10,8 @@ from typing import Any
 from antinode.beam.beam import Beam
 from antinode.extras import import_extra
 from antinode.modes.result import ModalResult
-from antinode.show.dataset import check_output, modal_table, write_result, write_whole
+from antinode.show.tables import modal_table
+from antinode.show.writing import check_output, write_result, write_whole
 
 from .formats import MODAL_ENDINGS, MODAL_FORMATS, Format, format_of
 from .tabulated import Hull

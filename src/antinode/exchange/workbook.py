@@ -22,7 +22,7 @@ from antinode.errors import InputError
 from antinode.extras import import_extra
 from antinode.inputs.reading import COLUMN_UNITS
 from antinode.modes.result import ModalResult
-from antinode.show.dataset import modal_table
+from antinode.show.tables import modal_table
 
 from .beam_toml import attachment_tables, beam_tables, head_tables
 from .tabulated import Hull, tabulate

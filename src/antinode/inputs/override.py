@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable
 from typing import Any
 
 from antinode.errors import InputError
 from antinode.text import short
+
+from .toml_reading import parse_toml
 
 _DEEPEST = 20
 
@@ -37,8 +38,8 @@ def override(tables: dict[str, Any], assignments: Iterable[str]) -> None:
 def _toml_value(text: str) -> object:
     """Read a value as TOML has it, or else as bare text."""
     try:
-        tables = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):
+        tables = parse_toml(f"value = {text}")
+    except ValueError:
         return text
     return tables["value"] if len(tables) == 1 else text
 

@@ -9,16 +9,16 @@ from __future__ import annotations
 import csv
 import difflib
 import math
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from antinode.errors import AntinodeError, InputError
-from antinode.text import nearest, one_line, short
+from antinode.text import nearest, short
 
 from .override import override
+from .toml_reading import parse_toml
 from .units import unit_factor
 
 MOST_TOML_BYTES = 2_000_000
@@ -53,22 +53,35 @@ def read_toml(path: Path) -> dict[str, Any]:
     InputError
         If the file is missing, too large, no text, or no TOML.
     """
-    text = _read_text(path, MOST_TOML_BYTES, "a TOML file")
+    text = toml_source(path)
     try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        reason = one_line(str(error), 100)
-    except RecursionError:
-        reason = "its values are nested too deeply"
-    except ValueError:
-        reason = "one of its numbers has thousands of digits"
-    raise InputError(
-        f"{path}: this is not valid TOML ({reason}); correct it, or compare it with the file that "
-        "'antinode init' writes"
-    )
+        return parse_toml(text)
+    except ValueError as error:
+        raise InputError(
+            f"{path}: this is not valid TOML ({error}); correct it, or compare it with the file "
+            "that 'antinode init' writes"
+        ) from error
 
 
-def _read_text(path: Path, most: int, what: str) -> str:
+def toml_source(path: Path) -> str:
+    """Return a TOML file as it is written.
+
+    Raises
+    ------
+    InputError
+        If it is missing, too large, or no text.
+    """
+    return read_text(path, MOST_TOML_BYTES, "a TOML file")
+
+
+def read_text(path: Path, most: int, what: str) -> str:
+    """Read a text of at most so many bytes, with plain line ends.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or is no text.
+    """
     try:
         text = read_bytes(path, most, what).decode("utf-8-sig")
         return text.replace("\r\n", "\n").replace("\r", "\n")
@@ -257,7 +270,7 @@ def station_columns(rows: list[Row], columns: Sequence[str], path: Path) -> dict
 
 def read_csv_text(path: Path) -> str:
     """Return a CSV file as text."""
-    return _read_text(path, MOST_CSV_BYTES, "a CSV table")
+    return read_text(path, MOST_CSV_BYTES, "a CSV table")
 
 
 def read_cells(path: Path) -> list[Row]:

@@ -16,6 +16,9 @@ from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
 from antinode.riccati.chain import Chain
 from antinode.riccati.shapes import propagate
+from antinode.version import __version__
+
+from .dataset import modal_dataset
 
 if TYPE_CHECKING:
     import xarray
@@ -265,9 +268,15 @@ class ModalResult:
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the result as a labelled xarray Dataset with units in every variable's attrs."""
-        from antinode.show.dataset import modal_dataset
-
-        return modal_dataset(self)
+        attributes = {
+            "title": f"Natural modes of {self.beam.name}",
+            "source": f"antinode {__version__}",
+            "method": self.method,
+            "tolerance": self.tolerance,
+            "normalisation": self.normalisation,
+            "warnings": "\n".join(self.warnings),
+        }
+        return modal_dataset(self.modes, self.x, self.families, attributes)
 
 
 def _plus_minus(error: float) -> str:

@@ -9,7 +9,7 @@ from html import escape
 from importlib.resources import files
 from string import Template
 
-from antinode import __version__
+from antinode.version import __version__
 
 from .comparison import Comparison, Line, size_of, within
 from .plates import Plate

@@ -11,14 +11,13 @@ from antinode.errors import InputError
 from antinode.inputs.reading import read_toml
 from antinode.modes.result import ModalResult
 from antinode.modes.solve import solve_one
-from antinode.show.dataset import check_output
 from antinode.show.outcome import print_json, say_written
+from antinode.show.writing import check_output, write_whole
 from antinode.vehicle.case import Case, load_case
-from antinode.whole import write_file
 
 from .beam_report import beam_report
 from .blocks import Document
-from .extras import ENDINGS, check_libraries
+from .formats import ENDINGS, check_libraries
 from .html import to_html
 from .pdf import to_pdf
 from .provenance import source_of
@@ -111,11 +110,4 @@ def _solved(problem: Case | BeamFile, modes: int | None, tolerance: float | None
 def write_report(document: Document, path: Path) -> None:
     """Write a document as HTML or PDF, by the ending, whole or not at all."""
     page = to_html(document).encode() if path.suffix.lower() == ".html" else to_pdf(document)
-    try:
-        write_file(path, lambda partial: _write(partial, page))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from error
-
-
-def _write(path: Path, page: bytes) -> None:
-    path.write_bytes(page)
+    write_whole(path, lambda partial: partial.write_bytes(page))

@@ -5,9 +5,9 @@ from __future__ import annotations
 from importlib.resources import files
 from typing import Any
 
-from antinode import __version__
 from antinode.extras import import_extra
 from antinode.show.svg import for_page
+from antinode.version import __version__
 
 from .blocks import Document
 

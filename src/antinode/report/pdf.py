@@ -8,9 +8,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from antinode import __version__
 from antinode.errors import ComputationError
 from antinode.extras import import_extra
+from antinode.version import __version__
 
 from .blocks import Document
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
-from antinode import __version__
+from antinode.version import __version__
 
 from .blocks import Section, paragraph, table
 

@@ -48,7 +48,7 @@ def vehicle_report(case: Case, result: ModalResult, source: Source, command: str
 
 def facts(source: Source) -> tuple[tuple[str, str], ...]:
     """Return what stands under the title."""
-    from antinode import __version__
+    from antinode.version import __version__
 
     return (
         ("Program", f"antinode {__version__}"),

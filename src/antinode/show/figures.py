@@ -12,12 +12,12 @@ from antinode.errors import InputError
 from antinode.modes.result import ModalResult, Mode
 from antinode.whole import write_file
 
-from .dataset import check_output
 from .sketch import draw_beam, mark_stations
 from .style import BODY, EDGE, GREY, INK, WATER, WIDTH, styled, zero_line
 from .style import PALETTE as PALETTE
 from .style import STYLE as STYLE
 from .style import pyplot as pyplot
+from .writing import check_output
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from antinode import __version__
 from antinode.extras import import_extra
+from antinode.version import __version__
 
 if TYPE_CHECKING:
     import xarray
 
+    from antinode.modes.result import ModalResult
     from antinode.vehicle.case import Case
 
 _COLUMNS = (
@@ -99,6 +100,14 @@ def loads_summary(case: Case) -> dict[str, Any]:
         "axial_force_tail_N": float(N[1]),
         "checks": loads.checks._asdict(),
     }
+
+
+def modes_dict(case: Case, result: ModalResult) -> dict[str, Any]:
+    """Return modes of a vehicle as plain numbers for JSON, with its condition, loads, warnings."""
+    data = result.to_dict()
+    data["condition"], data["loads"] = condition_dict(case), loads_summary(case)
+    data["warnings"] = [*case.loads.warnings, *data["warnings"]]
+    return data
 
 
 def loads_dict(case: Case) -> dict[str, Any]:

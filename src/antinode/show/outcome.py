@@ -34,7 +34,7 @@ def draw(figure: Figure, path: Path) -> None:
 
 def print_json(data: dict[str, Any]) -> None:
     """Print one JSON object."""
-    from .dataset import to_json
+    from .writing import to_json
 
     sys.stdout.write(to_json(data) + "\n")
 

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from antinode import ComputationError
-from antinode.cli import commands
+from antinode.cli.commands import beam
 from antinode.examples import EXAMPLES
 from cli_run import contents, python, refused, replaced, run
 
@@ -510,7 +510,7 @@ class TestFailures:
         def fail(*_):
             raise error
 
-        monkeypatch.setattr(commands, "_solve", fail)
+        monkeypatch.setattr(beam, "solve", fail)
 
     def test_a_bug_is_one_sentence(self, mast, monkeypatch):
         self.broken(monkeypatch, RuntimeError("on a\nsecond line"))
@@ -544,13 +544,13 @@ class TestFailures:
                 refused(ended, CASE, "too large or too small", code=1)
 
     def test_numpy_does_not_chatter(self, mast, monkeypatch):
-        solve = commands._solve
+        solve = beam.solve
 
         def noisy(*arguments):
             warnings.warn("overflow encountered", RuntimeWarning, stacklevel=1)
             return solve(*arguments)
 
-        monkeypatch.setattr(commands, "_solve", noisy)
+        monkeypatch.setattr(beam, "solve", noisy)
         assert run("beam", "beam.toml")[::2] == (0, "")
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from antinode import Beam, ComputationError, Ends, InputError, solve_modes
 from antinode.modes.buckling import buckling
-from antinode.show.dataset import to_json
+from antinode.show.writing import to_json
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 RIGID = {

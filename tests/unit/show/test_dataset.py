@@ -13,7 +13,8 @@ from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
 from antinode.beam.families import FAMILIES
 from antinode.extras import import_extra
-from antinode.show.dataset import check_output, modal_table, to_json, write_result
+from antinode.show.tables import modal_table
+from antinode.show.writing import check_output, to_json, write_result
 
 
 @pytest.fixture(scope="module")

@@ -6,19 +6,19 @@ from typing import Any
 
 import numpy as np
 
-from antinode.app.compute import Picture
+from antinode.app.compute import Answer
 from antinode.app.display import System, shown_unit
 from antinode.beam.beam import Beam
 
 from .numbers import pairs
 
 
-def forces_data(picture: Picture, system: System) -> dict[str, Any]:
+def forces_data(answer: Answer, system: System) -> dict[str, Any]:
     """Return the internal forces: N, Q and M of a vehicle, N of a beam."""
     return {
         "x": {
             "unit": shown_unit("m", system).name,
-            "origin": "nose" if picture.case else "left end",
+            "origin": "nose" if answer.case else "left end",
         },
         "curves": [
             {
@@ -29,16 +29,16 @@ def forces_data(picture: Picture, system: System) -> dict[str, Any]:
                     x / shown_unit("m", system).factor, y / shown_unit(si, system).factor
                 ),
             }
-            for name, title, si, x, y in _curves(picture)
+            for name, title, si, x, y in _curves(answer)
         ],
     }
 
 
-def _curves(picture: Picture) -> list[tuple[str, str, str, np.ndarray, np.ndarray]]:
+def _curves(answer: Answer) -> list[tuple[str, str, str, np.ndarray, np.ndarray]]:
     axial = "axial force, compression positive"
-    if picture.case is None:
-        return [("N", axial, "N", *_beam_axial_force(picture.beam))]
-    loads, L = picture.case.loads, picture.case.vehicle.length
+    if answer.case is None:
+        return [("N", axial, "N", *_beam_axial_force(answer.beam))]
+    loads, L = answer.case.loads, answer.case.vehicle.length
     x = np.unique(np.concatenate([np.linspace(0, L, 81), loads.breakpoints]))
     both = np.repeat(x, 2)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from antinode.app.compute import Picture
+from antinode.app.compute import Answer
 from antinode.app.quick import QUICK_FAMILY
 from antinode.app.state import View
 from antinode.beam.families import FamilyName
@@ -21,9 +21,9 @@ class Row(NamedTuple):
     shift: float
 
 
-def frequencies_data(picture: Picture, view: View) -> dict[str, Any]:
+def frequencies_data(answer: Answer, view: View) -> dict[str, Any]:
     """Return rows, bars, band and excitation lines."""
-    rows = frequency_rows(picture, view.family)
+    rows = frequency_rows(answer, view.family)
     baseline = dict(view.baseline)
     shown = [_shown(row, baseline.get(row.name), view) for row in rows]
     marks = [*(view.band or ()), *view.lines, *(r["baseline"] or 0.0 for r in shown)]
@@ -36,18 +36,18 @@ def frequencies_data(picture: Picture, view: View) -> dict[str, Any]:
         "lines": list(view.lines),
         "margin": view.margin,
         "pinned": bool(baseline),
-        "quick": picture.full is None,
+        "quick": answer.full is None,
     }
 
 
-def frequency_rows(picture: Picture, family: FamilyName) -> list[Row]:
-    """Return the modes 1, 2, ... of a family; of the quick picture only those of its family."""
-    if picture.full is not None:
-        modes = [mode for mode in picture.full.modes if mode.family == family and mode.number]
+def frequency_rows(answer: Answer, family: FamilyName) -> list[Row]:
+    """Return the modes 1, 2, ... of a family; of the quick answer only those of its family."""
+    if answer.full is not None:
+        modes = [mode for mode in answer.full.modes if mode.family == family and mode.number]
         return [_row(mode) for mode in modes[:12]]
     if family != QUICK_FAMILY:
         return []
-    quick = picture.quick
+    quick = answer.quick
     values = zip(quick.omega2.tolist(), quick.error.tolist(), strict=True)
     return [Row(f"{family} {n}", w2, e, math.nan) for n, (w2, e) in enumerate(values, 1)]
 
@@ -87,8 +87,8 @@ def flag(frequency: float, view: View) -> str:
     return ""
 
 
-def baseline_of(picture: Picture) -> tuple[tuple[str, float], ...]:
-    """Return the frequencies of a picture, to be pinned."""
-    families = picture.full.families if picture.full else (QUICK_FAMILY,)
-    rows = [row for family in families for row in frequency_rows(picture, family)]
+def baseline_of(answer: Answer) -> tuple[tuple[str, float], ...]:
+    """Return the frequencies of an answer, to be pinned."""
+    families = answer.full.families if answer.full else (QUICK_FAMILY,)
+    rows = [row for family in families for row in frequency_rows(answer, family)]
     return tuple((row.name, float(f"{hertz(row.omega2):.7g}")) for row in rows if row.omega2 >= 0)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from antinode.app.compute import Picture
+from antinode.app.compute import Answer
 from antinode.app.display import shown_unit
 from antinode.app.quick import QUICK_FAMILY
 from antinode.app.state import View
@@ -15,16 +15,16 @@ from antinode.beam.families import FAMILIES, FamilyName
 from .numbers import pairs, thinned
 
 
-def modes_data(picture: Picture, view: View) -> dict[str, Any]:
+def modes_data(answer: Answer, view: View) -> dict[str, Any]:
     """Return the curves of the modes that the view asks for."""
-    family = view.family if picture.full else QUICK_FAMILY
-    x, shapes, labels = _shapes(picture, view, family)
+    family = view.family if answer.full else QUICK_FAMILY
+    x, shapes, labels = _shapes(answer, view, family)
     factor = shown_unit("m", view.units).factor
     names = FAMILIES[family].quantities
     component = min(view.component, len(names) - 1)
     return {
         "unit": shown_unit("m", view.units).name,
-        "origin": "nose" if picture.case else "left end",
+        "origin": "nose" if answer.case else "left end",
         "component": names[component][0],
         "meaning": names[component][2],
         "curves": [
@@ -40,20 +40,20 @@ def modes_data(picture: Picture, view: View) -> dict[str, Any]:
 
 
 def _shapes(
-    picture: Picture, view: View, family: FamilyName
+    answer: Answer, view: View, family: FamilyName
 ) -> tuple[np.ndarray, list[np.ndarray | None], list[str]]:
     """Return x, and of every mode asked for its states and a label; None where there is none."""
     if family == QUICK_FAMILY:
-        quick = picture.quick
+        quick = answer.quick
         count = len(quick.omega2)
         shapes = [quick.states[:, n - 1] if n <= count else None for n in view.modes]
         labels = [_label(float(quick.omega2[n - 1])) if n <= count else "" for n in view.modes]
         return quick.x, shapes, labels
-    assert picture.full is not None
-    found = {mode.number: mode for mode in picture.full.family(family)}
+    assert answer.full is not None
+    found = {mode.number: mode for mode in answer.full.family(family)}
     modes = [found.get(n) for n in view.modes]
     shapes = [None if mode is None else mode.states for mode in modes]
-    return picture.full.x, shapes, ["" if m is None else _label(m.omega2) for m in modes]
+    return answer.full.x, shapes, ["" if m is None else _label(m.omega2) for m in modes]
 
 
 def _label(omega2: float) -> str:

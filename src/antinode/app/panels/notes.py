@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from antinode.app.compute import Picture
+from antinode.app.compute import Answer
 from antinode.app.display import System, number_text, shown_unit
 from antinode.vehicle.case import Case
 from antinode.vehicle.hydrodynamics.validity import Validity
 
 
-def notes_data(picture: Picture, system: System) -> dict[str, Any]:
+def notes_data(answer: Answer, system: System) -> dict[str, Any]:
     """Return facts, warnings and checked ranges."""
-    case = picture.case
+    case = answer.case
     return {
-        "facts": _facts(case, system) if case else _beam_facts(picture, system),
-        "warnings": picture.warnings,
+        "facts": _facts(case, system) if case else _beam_facts(answer, system),
+        "warnings": answer.warnings,
         "ranges": [_range(row) for row in case.loads.validity] if case else [],
     }
 
@@ -36,8 +36,8 @@ def _facts(case: Case, system: System) -> list[list[str]]:
     return [cavity, *sigma] + [[name, _text(value, si, system)] for name, value, si in values]
 
 
-def _beam_facts(picture: Picture, system: System) -> list[list[str]]:
-    beam = picture.beam
+def _beam_facts(answer: Answer, system: System) -> list[list[str]]:
+    beam = answer.beam
     values = (("length", beam.length, "m"), ("mass", beam.mass, "kg"))
     ends = [["ends", f"{beam.ends.left} – {beam.ends.right}"]]
     return [[name, _text(value, si, system)] for name, value, si in values] + ends

@@ -63,10 +63,6 @@ def _fins(vehicle: Vehicle, fins: FinSet, x: float) -> list[list[float]]:
     ]
 
 
-def _called(name: str, one_set: bool) -> str:
-    return "fins" if one_set and name == "fin set 1" else name
-
-
 def _named(name: str, along: bool) -> str:
     if name in ("thrust", "weight", "extra drag"):
         return name

@@ -16,13 +16,13 @@ from pathlib import Path
 
 import numpy as np
 
-from antinode import __version__
 from antinode.arrays import Array
 from antinode.beam.attachments import Joint, PointMass, Spring
 from antinode.beam.beam import Beam
 from antinode.beam.families import LONGITUDINAL
 from antinode.exchange.units import SI, System
 from antinode.modes.result import ModalResult, hertz
+from antinode.version import __version__
 
 from .cards import card_text
 

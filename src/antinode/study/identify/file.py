@@ -18,7 +18,7 @@ from pydantic import BeforeValidator, Field, create_model, model_validator
 from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
-from antinode.inputs.reading import read_beside_case
+from antinode.inputs.reading import read_beside_case, toml_source
 from antinode.inputs.units import Frozen, Number, Unit
 from antinode.vehicle.case import Case, load_case
 from antinode.vehicle.condition import OperatingCondition
@@ -255,6 +255,9 @@ class IdentificationProblem(_Choices):
     """A case, observations of it, and what of it may change."""
 
     case: Case = Field(description="where to start")
+    case_text: str = Field(
+        default="", repr=False, description="its file, whose comments a fitted case keeps"
+    )
     observations: tuple[ObservationRow, ...] = Field(min_length=1, description="what was observed")
 
 
@@ -284,6 +287,7 @@ def load_identification(path: str | Path, assignments: Iterable[str] = ()) -> Id
     file = validate(IdentificationFile, tables, where, elsewhere, ("observations",))
     return IdentificationProblem(
         case=load_case(path.parent / file.case),
+        case_text=toml_source(path.parent / file.case),
         observations=file.observations,
         **{k: getattr(file, k) for k in _Choices.model_fields},
     )

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+import tomllib
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from antinode.errors import InputError
+from antinode.inputs.toml_writing import toml_text, with_values
 from antinode.vehicle.case import Case
 from antinode.vehicle.options import Model
 from antinode.vehicle.vehicle import Stations
@@ -19,9 +17,10 @@ from antinode.whole import put
 from .result import Identification
 from .tables import comparison_csv, parameter_csv
 
+STATIONS = "stations.csv"
 FILES = (
     "case.toml",
-    "stations.csv",
+    STATIONS,
     "observed_and_fitted.csv",
     "parameters.csv",
     "identification.json",
@@ -61,14 +60,16 @@ def write_identification(
     InputError
         If a file exists already, or the folder cannot be written.
     """
-    from antinode.show.dataset import to_json
+    from antinode.show.writing import to_json
 
     check_folder(folder, overwrite=overwrite)
     texts = dict(
         zip(
             FILES,
             (
-                case_toml(result.case, _comment(result)),
+                case_toml(
+                    result.case, _comment(result), result.problem.case, result.problem.case_text
+                ),
                 stations_csv(result.case.vehicle.stations, result.case.vehicle.interpolation),
                 comparison_csv(result),
                 parameter_csv(result),
@@ -107,7 +108,7 @@ def _comment(result: Identification) -> str:
     )
 
 
-def case_toml(case: Case, comment: str = "") -> str:
+def case_toml(case: Case, comment: str = "", start: Case | None = None, text: str = "") -> str:
     """Return a case as TOML that names its stations stations.csv.
 
     Parameters
@@ -115,52 +116,25 @@ def case_toml(case: Case, comment: str = "") -> str:
     case : Case
     comment : str
         Lines for the top of the file.
+    start : Case, optional
+        The case that it began with.
+    text : str
+        The file of that one: what did not change stays as it is written there.
     """
+    if start is None or not text:
+        return f"{comment}\n{toml_text(_tables(case, STATIONS))}"
+    before = _tables(start, tomllib.loads(text)["vehicle"]["stations"])
+    return f"{comment}\n{with_values(text, before, _tables(case, STATIONS))}"
+
+
+def _tables(case: Case, stations: Any) -> dict[str, Any]:
+    """Return a case as the tables of its file; choices of the model only where they are made."""
     tables = case.model_dump(exclude_none=True)
-    tables["vehicle"]["stations"] = "stations.csv"
+    tables["vehicle"]["stations"] = stations
     tables["model"] = {
         k: v for k, v in tables["model"].items() if v != Model.model_fields[k].default
     }
-    return comment + "".join(_table(tables, ())).lstrip("\n")
-
-
-def _table(table: Mapping[str, Any], path: tuple[str, ...]) -> list[str]:
-    """Return the lines of a table: its own keys first, then the tables inside."""
-    lines = [f"{key} = {_value(v)}\n" for key, v in table.items() if not _is_table(v)]
-    head = [f"\n[{'.'.join(path)}]\n"] if path and lines else []
-    lines = head + lines
-    for key, inner in table.items():
-        if isinstance(inner, Mapping):
-            lines += _table(inner, (*path, key))
-        elif _is_table(inner):
-            for entry in inner:
-                lines.append(f"\n[[{'.'.join((*path, key))}]]\n")
-                lines += [f"{k} = {_value(v)}\n" for k, v in entry.items()]
-    return lines
-
-
-def _is_table(value: Any) -> bool:
-    return isinstance(value, Mapping) or (
-        isinstance(value, list | tuple) and bool(value) and isinstance(value[0], Mapping)
-    )
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        return _text(value)
-    if isinstance(value, np.ndarray | list | tuple):
-        return f"[{', '.join(_value(v) for v in value)}]"
-    if isinstance(value, float) and math.isinf(value):
-        return "inf" if value > 0 else "-inf"
-    return repr(value.item() if isinstance(value, np.generic) else value)
-
-
-def _text(text: str) -> str:
-    """Return a TOML string."""
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + "".join(c if c.isprintable() else f"\\U{ord(c):08X}" for c in escaped) + '"'
+    return tables
 
 
 def stations_csv(stations: Stations, interpolation: str) -> str:

@@ -45,7 +45,7 @@ def run_sweep(
     to_file = output is not None and output.suffix.lower() in _FILES
     check_plot(plot)
     if to_file and output:
-        from antinode.show.dataset import check_output
+        from antinode.show.writing import check_output
 
         check_output(output, _FILES)
     more = () if modes is None else (f"solve.modes={modes}",)
@@ -105,7 +105,7 @@ def _print(data: dict[str, Any], stored: str, *, json: bool) -> None:
 
 def _export(dataset: xarray.Dataset, path: Path, data: dict[str, Any]) -> None:
     """Write a Dataset to a file: .nc with everything, .csv with one row a case."""
-    from antinode.show.dataset import write_result
+    from antinode.show.writing import write_result
 
     from .tables import sweep_csv, without_lists
 

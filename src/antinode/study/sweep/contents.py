@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from antinode import __version__
 from antinode.study.cases.chunks import mode_names
 from antinode.study.cases.reasons import WHY, failed
 from antinode.study.design.file import LOAD_OUTPUTS, MODE_OUTPUTS, Study
 from antinode.study.design.points import Points
 from antinode.vehicle.case import Case
+from antinode.version import __version__
 
 if TYPE_CHECKING:
     import xarray

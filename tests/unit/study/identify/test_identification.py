@@ -412,6 +412,20 @@ def test_results_are_written_and_never_over_others(case, tmp_path):
     write_identification(result, tmp_path / "out", overwrite=True)
 
 
+def test_a_fitted_case_keeps_the_comments_of_its_file(case, folder, tmp_path):
+    text = (folder / "case.toml").read_text(encoding="utf-8")
+    problem = exact_problem(case).model_copy(update={"case_text": text})
+    result = an.identify(problem)
+    write_identification(result, tmp_path / "out")
+    kept = (tmp_path / "out" / "case.toml").read_text(encoding="utf-8").splitlines()
+    assert kept[0].startswith("# identified from observed frequencies")
+    changed = [line for line in text.splitlines() if line not in kept]
+    assert [line.partition(" ")[0] for line in changed] == ["diameter", "thrust"]
+    assert any(line.startswith("thrust = ") and "# T at the tail" in line for line in kept)
+    fitted = an.load_case(tmp_path / "out" / "case.toml")
+    assert fitted.condition == result.case.condition
+
+
 def test_an_extra_drag_steps_n_where_it_acts(case):
     at_fins, behind = (
         an.Case(

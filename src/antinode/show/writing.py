@@ -1,10 +1,8 @@
-"""Results as labelled arrays with units (xarray), and as files: CSV, JSON, NetCDF."""
+"""Results as files, whole or not at all: names are checked before any work is done."""
 
 from __future__ import annotations
 
-import csv
 import errno
-import io
 import json
 import math
 import os
@@ -14,100 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from antinode import __version__
-from antinode.beam.families import FAMILIES
 from antinode.errors import InputError
 from antinode.extras import import_extra
-from antinode.modes.result import ModalResult, Mode
 from antinode.text import short
 from antinode.whole import write_file
 
 if TYPE_CHECKING:
     import xarray
-
-_SCALARS: tuple[tuple[str, str, str], ...] = (
-    ("frequency_hz", "Hz", "natural frequency; NaN where divergent"),
-    ("error_hz", "Hz", "the frequency of the beam lies within this of frequency_hz"),
-    ("omega2", "rad^2/s^2", "eigenvalue"),
-    ("error_omega2", "rad^2/s^2", "bound on the error of omega2"),
-    ("growth_rate_per_s", "1/s", "growth rate of a divergent mode; NaN where omega2 >= 0"),
-    ("modal_mass", "kg", "integral of m Y^2 of the shape as normalised"),
-    ("shift", "1", "relative change of the frequency by the axial force"),
-    ("model_error", "1", "first-order relative effect of shear and rotary inertia"),
-)
-
-
-def modal_dataset(result: ModalResult) -> xarray.Dataset:
-    """Return a modal result as a Dataset over modes and position.
-
-    Raises
-    ------
-    InputError
-        If xarray is not installed.
-    """
-    xr = import_extra("xarray", "dataset")
-    modes = result.modes
-    data: dict[str, Any] = {
-        name: ("mode", [_nan(getattr(m, name)) for m in modes], {"units": unit, "long_name": text})
-        for name, unit, text in _SCALARS
-    }
-    data["family"] = ("mode", [m.family for m in modes])
-    data["number"] = ("mode", [m.number for m in modes], {"long_name": "0 for rigid modes"})
-    data["kind"] = ("mode", [m.kind for m in modes])
-    data["bracket_omega2"] = (
-        ("mode", "bound"),
-        [m.bracket_omega2 for m in modes],
-        {"units": "rad^2/s^2", "long_name": "encloses the eigenvalue of the segment chain"},
-    )
-    data["counts"] = (
-        ("mode", "bound"),
-        [m.counts for m in modes],
-        {"units": "1", "long_name": "eigenvalues below either end of the bracket"},
-    )
-    for family in result.families:
-        for i, (symbol, unit, text) in enumerate(FAMILIES[family].quantities):
-            shapes = np.array([_component(m, family, i, len(result.x)) for m in modes])
-            data[symbol] = (("mode", "x"), shapes, {"units": unit, "long_name": text})
-    coordinates = {
-        "mode": [m.name for m in modes],
-        "x": ("x", result.x, {"units": "m", "long_name": "position from the left end (nose)"}),
-        "bound": ["low", "high"],
-    }
-    dataset: xarray.Dataset = xr.Dataset(data, coordinates, attrs=_attributes(result))
-    return dataset
-
-
-def _component(mode: Mode, family: str, index: int, points: int) -> Any:
-    return mode.states[:, index] if mode.family == family else np.full(points, np.nan)
-
-
-def _attributes(result: ModalResult) -> dict[str, Any]:
-    return {
-        "title": f"Natural modes of {result.beam.name}",
-        "source": f"antinode {__version__}",
-        "method": result.method,
-        "tolerance": result.tolerance,
-        "normalisation": result.normalisation,
-        "warnings": "\n".join(result.warnings),
-    }
-
-
-def _nan(value: float | None) -> float:
-    return math.nan if value is None else value
-
-
-def modal_table(result: ModalResult) -> str:
-    """Return the modes as CSV with units in the header, one row a mode."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    units = ["" if unit == "1" else f" [{unit}]" for _, unit, _ in _SCALARS]
-    header = [name + unit for (name, _, _), unit in zip(_SCALARS, units, strict=True)]
-    writer.writerow(["family", "number", "name", "kind", *header])
-    for m in result.modes:
-        values = [_nan(getattr(m, name)) for name, _, _ in _SCALARS]
-        cells = ["" if math.isnan(v) else repr(float(v)) for v in values]
-        writer.writerow([m.family, m.number, m.name, m.kind, *cells])
-    return out.getvalue()
 
 
 def to_json(data: object) -> str:
@@ -150,7 +61,7 @@ def write_result(
     write_whole(path, writers[kind or path.suffix.lower()])
 
 
-def write_whole(path: Path, write: Callable[[Path], None]) -> None:
+def write_whole(path: Path, write: Callable[[Path], object]) -> None:
     """Write a file whole or not at all, by a function that writes it under another name.
 
     Raises

@@ -1,4 +1,4 @@
-"""The libraries of the extra `report`, or how to install them."""
+"""What a report can be written as, and the libraries for it, or how to install them."""
 
 from __future__ import annotations
 

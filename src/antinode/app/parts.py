@@ -1,0 +1,58 @@
+"""What the page is built of: sections, cards with a picture, buttons, the place to drop files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from nicegui import events, ui
+
+from .elements import Picture
+from .source import MOST_BYTES
+
+SMALL = "dense flat no-caps size=sm"
+
+
+def head_button(text: str, icon: str, click: Callable[[], Any] | None = None) -> ui.button:
+    """Build a button of the page's head."""
+    found = ui.button(text, icon=icon, color=None, on_click=click)
+    return found.props("flat dense no-caps").classes("an-headbutton").mark(text.lower())
+
+
+@contextmanager
+def section(title: str) -> Iterator[None]:
+    """Build a part of the side with its title."""
+    with ui.element("section").classes("an-section"):
+        ui.label(title).classes("an-title").props('role="heading" aria-level="2"')
+        yield
+
+
+@contextmanager
+def card(kind: str, title: str) -> Iterator[None]:
+    """Build a panel: its title with controls beside it, and its picture below."""
+    role = "region" if kind == "frequencies" else "img"
+    with ui.element("section").classes(f"an-card an-at-{kind}"):
+        with ui.element("div").classes("an-cardhead"):
+            ui.label(title).classes("an-title").props('role="heading" aria-level="2"')
+            yield
+        Picture(kind, title, role=role)
+
+
+def uploader(taken: Callable[[events.MultiUploadEventArguments], Any]) -> ui.upload:
+    """Build what takes files that are chosen, or dropped on the page."""
+    return (
+        ui.upload(
+            multiple=True,
+            auto_upload=True,
+            max_total_size=MOST_BYTES,
+            max_files=10,
+            on_multi_upload=taken,
+            on_rejected=lambda: ui.notify(
+                f"These files are refused: at most 10, and {MOST_BYTES / 1e6:g} MB together.",
+                type="negative",
+            ),
+        )
+        .classes("an-upload")
+        .props('aria-hidden="true" accept=".toml,.csv"')
+    )

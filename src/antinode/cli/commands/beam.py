@@ -1,0 +1,59 @@
+"""`antinode beam`: frequencies and modes of any beam."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from antinode.cli.modal import check_modal_output, solve, write_modes
+from antinode.cli.options import BeamSet, BucklingFactor, Output, Solver
+from antinode.show.outcome import draw
+
+_SOLVER, _OUTPUT = Solver(), Output()
+
+
+def beam(
+    file: Path,
+    /,
+    *,
+    set_: BeamSet = (),
+    solver: Solver = _SOLVER,
+    buckling: BucklingFactor = False,
+    output: Output = _OUTPUT,
+) -> None:
+    """Compute frequencies and modes of any beam, with no vehicle at all.
+
+    The file gives mass, stiffness and axial force N (positive in compression) at stations, how the
+    ends are held, and what is attached.
+
+    - Example: **antinode beam beam.toml**
+    - Example: **antinode beam beam.toml --set beam.ends.left=pinned --plot beam.svg**
+    - Example: **antinode beam beam.toml --buckling -o beam.csv**
+
+    Parameters
+    ----------
+    file
+        A beam file in TOML. 'antinode init --beam' writes one.
+    """
+    check_modal_output(output)
+    from antinode.beam.file import load_beam
+
+    result = solve(load_beam(file, set_), solver)
+    critical = None
+    if buckling:
+        from antinode.modes.buckling import buckling as find_factor
+
+        critical = find_factor(result.beam, result.tolerance)
+    found = {"buckling": critical.to_dict() if critical else None} if buckling else {}
+    if output.plot:
+        from antinode.show.figures import plot_modes
+
+        draw(plot_modes(result), output.plot)
+    write_modes(output, result, lambda: result.to_dict() | found)
+    if not output.json:
+        from antinode.show.printing import console, show_beam, show_buckling, show_modes
+
+        out = console()
+        show_beam(out, result.beam)
+        if buckling:
+            show_buckling(out, critical)
+        show_modes(out, result)

@@ -1,0 +1,68 @@
+"""TOML parsed within bounds: a small text cannot fill the memory by keys of keys of keys.
+
+The parser of the standard library takes a kilobyte, and time, for each level of each key. So the
+levels are counted before it sees the text.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from typing import Any
+
+from antinode.text import one_line
+
+DEEPEST = 10
+"""Levels of a key, and of lists and tables in one another."""
+MOST_LEVELS = 20_000
+"""Of all keys that have three levels or more, together."""
+
+_TEXTS = re.compile(
+    r"(\"\"\"(?:[^\\]|\\.)*?(?:\"\"\"|\Z)"
+    r"|'''.*?(?:'''|\Z)"
+    r"|\"(?:[^\"\\\n]|\\.)*\"?"
+    r"|'[^'\n]*'?)"
+    r"|#[^\n]*",
+    re.DOTALL,
+)
+"""Texts in quotes, closed or not, and comments: what dots and brackets do not count in."""
+_KEY = re.compile(r"(?<![\w-])[\w-]++(?:[ \t]*+\.[ \t]*+[\w-]++){2,}")
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """Return the tables of a TOML text.
+
+    Raises
+    ------
+    ValueError
+        If it is no TOML, or nested too deeply; the text says why, without an end.
+    """
+    _check_depth(text)
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(one_line(str(error), 100)) from error
+    except RecursionError:
+        raise ValueError(_DEEP) from None
+    except ValueError as error:
+        raise ValueError("one of its numbers has thousands of digits") from error
+
+
+_DEEP = f"its values are nested too deeply, at most {DEEPEST} levels are allowed"
+
+
+def _check_depth(text: str) -> None:
+    """Raise ValueError if keys, or lists in lists, have too many levels."""
+    bare = _TEXTS.sub(lambda found: "s" if found[1] else "", text)
+    levels = [found[0].count(".") + 1 for found in _KEY.finditer(bare)]
+    if max(levels, default=0) > DEEPEST:
+        raise ValueError(f"one of its keys has {max(levels)} levels, at most {DEEPEST} are allowed")
+    if sum(levels) > MOST_LEVELS:
+        raise ValueError(
+            f"its keys have {sum(levels)} levels together, at most {MOST_LEVELS} may be"
+        )
+    depth = 0
+    for bracket in re.findall(r"[\[\]{}]", bare):
+        depth += 1 if bracket in "[{" else -1
+        if depth > DEEPEST:
+            raise ValueError(_DEEP)
