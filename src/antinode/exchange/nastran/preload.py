@@ -14,6 +14,7 @@ from antinode.arrays import Array
 from antinode.beam.attachments import Spring
 from antinode.beam.axial import AxialLoads, PointForce, apply_loads
 from antinode.beam.beam import Beam
+from antinode.beam.families import LONGITUDINAL
 from antinode.errors import InputError
 from antinode.exchange.units import System
 from antinode.text import counted
@@ -95,7 +96,7 @@ def _check_enforced(model: Model, chosen: int | None) -> None:
 
 def _is_borne(beam: Beam) -> bool:
     springs = any(item.axial for item in beam.attachments if isinstance(item, Spring))
-    return springs or "fixed" in beam.ends.of("longitudinal")
+    return springs or "fixed" in beam.ends.of(LONGITUDINAL)
 
 
 def _check_balance(model: Model, loads: Loads, static: Subcase) -> None:
