@@ -36,7 +36,7 @@ from .ends import FREE, Ends
 from .families import FAMILIES, FamilyName, tells
 from .mass import MassDistribution, mass_within
 from .profile import interpolated
-from .representation import FAR, GAUSS, NEAR, coarsest_steps, copies
+from .representation import GAUSS, coarsest_steps, copies, halved
 
 
 @dataclass(frozen=True)
@@ -332,12 +332,11 @@ class Beam:
         start = start[which] + number * size
         halves = np.where(varies[interval], 2, 1)
         step, second = copies(halves)
-        nearer = np.where(second == 1, FAR, NEAR)  # weight of the first Gauss point
 
         def average(values: Callable[[Integers, Array], Array]) -> Array:
             """Return weighted means of the values at the Gauss points, one for each segment."""
-            first, last = (values(interval, start + size * g)[step] for g in GAUSS)
-            return np.asarray(nearer * first + (1 - nearer) * last)
+            at_points = np.stack([values(interval, start + size * g) for g in GAUSS], axis=-1)
+            return np.asarray(halved(at_points)[step, second])
 
         first = np.concatenate([[0], np.cumsum(np.bincount(interval[step]))])
         length = (np.diff(self.x)[interval] * size / halves)[step]
