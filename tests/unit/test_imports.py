@@ -138,7 +138,7 @@ def test_the_imports_are_seen():
         return set(imports(name, FILES[name]))
 
     assert "antinode.riccati.chain" in seen("beam.beam")
-    assert "antinode.vehicle.hydrodynamics.fins" in seen("vehicle.loads")
+    assert "antinode.vehicle.hydrodynamics.fins" in seen("vehicle.forces")
     assert "antinode.riccati.points" in seen("riccati.chain")
 
 

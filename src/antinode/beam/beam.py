@@ -34,7 +34,9 @@ from .attachments import (
 from .checks import TABLES, check, given
 from .ends import FREE, Ends
 from .families import FAMILIES, FamilyName, tells
-from .representation import FAR, GAUSS, NEAR, coarsest_steps, copies
+from .mass import MassDistribution, mass_within
+from .profile import interpolated
+from .representation import GAUSS, coarsest_steps, copies, halved
 
 
 @dataclass(frozen=True)
@@ -181,7 +183,7 @@ class Beam:
     @cached_property
     def mass_left(self) -> Array:
         """Mass left of every breakpoint and at it [kg], shape (n + 1,)."""
-        whole = _partial_mass(self, np.arange(len(self.x) - 1), np.ones(len(self.x) - 1))
+        whole = self._mass_of_part(np.arange(len(self.x) - 1), np.ones(len(self.x) - 1))
         points = np.zeros(len(self.x))
         for item in self.attachments:
             if isinstance(item, PointMass):
@@ -190,7 +192,12 @@ class Beam:
 
     def mass_left_of(self, interval: Integers, fraction: Array) -> Array:
         """Return the mass left of places inside intervals [kg]."""
-        return np.asarray(self.mass_left[interval] + _partial_mass(self, interval, fraction))
+        return np.asarray(self.mass_left[interval] + self._mass_of_part(interval, fraction))
+
+    def _mass_of_part(self, interval: Integers, fraction: Array) -> Array:
+        a, b = self.mass_per_length[interval, 0], self.mass_per_length[interval, 1]
+        length = np.diff(self.x)[interval]
+        return mass_within(a, b, length, fraction * length, self.interpolation)
 
     def _breakpoint(self, x: float) -> int:
         return int(np.argmin(np.abs(self.x - x)))
@@ -232,24 +239,19 @@ class Beam:
     @cached_property
     def moment_of_inertia(self) -> float:
         """Moment of inertia about the centre of mass [kg m^2], point masses included."""
-        points, weights = np.polynomial.legendre.leggauss(8)
-        k = np.arange(len(self.x) - 1)[:, None]
-        t = (points + 1) / 2
-        dm = (self.at(self.mass_per_length, k, t) * np.diff(self.x)[:, None] * weights / 2).ravel()
-        x = (self.x[:-1, None] + np.diff(self.x)[:, None] * t).ravel()
+        x, ends = self.x - self.x[0], self.mass_per_length
+        J0, J1, J2 = MassDistribution(x, ends, self.interpolation).moments_ahead[:, -1]
         masses = [item for item in self.attachments if isinstance(item, PointMass)]
-        dm = np.append(dm, [item.mass for item in masses])
-        x = np.append(x, [item.x + item.offset for item in masses])
-        centre = np.sum(dm * x) / np.sum(dm)
-        own = sum(item.rotary_inertia for item in masses)
-        return float(np.sum(dm * (x - centre) ** 2)) + own
+        dm = np.array([J0, *(item.mass for item in masses)])
+        at = np.array([J1 / J0, *(item.x + item.offset - self.x[0] for item in masses)])
+        centre = np.sum(dm * at) / np.sum(dm)
+        own = J2 - J1 * J1 / J0 + sum(item.rotary_inertia for item in masses)
+        return float(own + np.sum(dm * (at - centre) ** 2))
 
     def at(self, values: Array, interval: Integers, fraction: Array) -> Array:
         """Interpolate a property inside intervals, at fractions 0 ... 1 of their lengths."""
         a, b = values[interval, 0], values[interval, 1]
-        if self.interpolation == "log":
-            return np.asarray(a * (b / a) ** fraction)
-        return np.asarray(a + (b - a) * fraction)
+        return np.asarray(interpolated(a, b, fraction, self.interpolation))
 
     def axial_force_at(self, interval: Integers, fraction: Array) -> Array:
         """Return N [N] inside intervals, at fractions 0 ... 1 of their lengths."""
@@ -330,12 +332,11 @@ class Beam:
         start = start[which] + number * size
         halves = np.where(varies[interval], 2, 1)
         step, second = copies(halves)
-        nearer = np.where(second == 1, FAR, NEAR)  # weight of the first Gauss point
 
         def average(values: Callable[[Integers, Array], Array]) -> Array:
             """Return weighted means of the values at the Gauss points, one for each segment."""
-            first, last = (values(interval, start + size * g)[step] for g in GAUSS)
-            return np.asarray(nearer * first + (1 - nearer) * last)
+            at_points = np.stack([values(interval, start + size * g) for g in GAUSS], axis=-1)
+            return np.asarray(halved(at_points)[step, second])
 
         first = np.concatenate([[0], np.cumsum(np.bincount(interval[step]))])
         length = (np.diff(self.x)[interval] * size / halves)[step]
@@ -432,14 +433,3 @@ def _own(values: npt.ArrayLike) -> Array:
     own = np.array(values, dtype=float)
     own.flags.writeable = False
     return own
-
-
-def _partial_mass(beam: Beam, interval: Integers, fraction: Array) -> Array:
-    """Return the mass between the left end of an interval and a fraction of it [kg]."""
-    a, b = beam.mass_per_length[interval, 0], beam.mass_per_length[interval, 1]
-    h = np.diff(beam.x)[interval] * fraction
-    if beam.interpolation == "log":
-        rate = np.log(b / a) * fraction
-        mean = np.where(np.abs(rate) > 1e-12, np.expm1(rate) / np.where(rate == 0, 1, rate), 1.0)
-        return np.asarray(a * h * mean)
-    return np.asarray(h * (a + (b - a) * fraction / 2))

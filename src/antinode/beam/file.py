@@ -23,7 +23,7 @@ from .axial import apply_loads
 from .beam import Beam
 from .ends import AxialEnd, End, Ends
 from .limits import check_limits
-from .mass import MassTable, check_on_body
+from .parts import MassTable, check_on_body
 from .station_csv import without_hull
 from .tables import AttachmentTables
 

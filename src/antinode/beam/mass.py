@@ -1,40 +1,61 @@
-"""Mass along an axis, with exact integrals, and parts that add to it."""
+"""Mass along an axis: its integrals, which stand here once for all.
+
+``J_p = integral of m t^p dt``, p = 0, 1, 2, from the start of an interval: polynomials, or for
+"log" ``J_0 = a s expm1(k s) / (k s)``, ``k = ln(b/a) / length``, and 16 Gauss points beyond.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import cached_property
-from typing import Annotated, Literal, Self
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from pydantic import Field, model_validator
+from numpy.typing import ArrayLike
 
-from antinode.arrays import Array, Interpolation
-from antinode.inputs.columns import Column, finite, increasing
-from antinode.inputs.units import Frozen
+from antinode.arrays import Array, Integers, Interpolation
+
+from .profile import Profile
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _NODES, _WEIGHTS = (_NODES + 1) / 2, _WEIGHTS / 2
 
 
-@dataclass(frozen=True, eq=False)
-class MassDistribution:
-    """Mass per length along the axis, with exact integrals.
+def mass_within(a: Any, b: Any, length: Any, s: Any, how: Interpolation) -> Array:
+    """Return the mass of the first `s` metres of intervals.
 
     Parameters
     ----------
-    x : ndarray (n+1,)
-        Bounds of the intervals [m].
-    ends : ndarray (n, 2)
-        Mass per length at both ends of each interval [kg/m].
-    interpolation : {"step", "linear", "log"}
-        How it runs between the ends.
+    a, b : array_like
+        Mass per length at both ends [kg/m].
+    length, s : array_like
+        Of the interval, and of its first part [m].
+    how : {"step", "linear", "log"}
+        How the mass runs between the ends.
     """
+    if how != "log":
+        return np.asarray(s * (a + (b - a) / length * s / 2))
+    rate = np.log(b / a) * s / length
+    mean = np.where(np.abs(rate) > 1e-12, np.expm1(rate) / np.where(rate == 0, 1.0, rate), 1.0)
+    return np.asarray(a * s * mean)
 
-    x: Array
-    ends: Array
-    interpolation: Interpolation
+
+def moments_within(a: Any, b: Any, length: Any, s: Any, how: Interpolation) -> list[Array]:
+    """Return J_0, J_1, J_2 of the first `s` metres of intervals, about where these start.
+
+    The arguments are those of `mass_within`.
+    """
+    J0 = mass_within(a, b, length, s, how)
+    if how != "log":
+        slope = (b - a) / length
+        return [J0, s * s * (a / 2 + slope * s / 3), s * s * s * (a / 3 + slope * s / 4)]
+    t = np.asarray(s)[..., None] * _NODES
+    m = a[..., None] * (b / a)[..., None] ** (t / np.asarray(length)[..., None])
+    return [J0, *(s * np.sum(_WEIGHTS * m * power, axis=-1) for power in (t, t * t))]
+
+
+class MassDistribution(Profile):
+    """Mass per length along the axis [kg/m], with its integrals: a `Profile`."""
 
     def __add__(self, other: MassDistribution) -> MassDistribution:
         """Return the sum of two distributions, each zero outside its own range.
@@ -52,24 +73,10 @@ class MassDistribution:
         return MassDistribution(x, self.between(x) + other.between(x), how)
 
     def between(self, x: Array) -> Array:
-        """Return the mass per length at both ends of the intervals between `x`, (n, 2) [kg/m]."""
+        """Return the mass per length at both ends of the intervals between `x`, (..., m, 2)."""
         middle = (x[:-1] + x[1:]) / 2
-        k = np.clip(np.searchsorted(self.x, middle) - 1, 0, len(self.ends) - 1)
-        size = self.x[k + 1] - self.x[k]
-        a, b = self.ends[k].T
-        sides = []
-        for points in (x[:-1], x[1:]):
-            t = (points - self.x[k]) / size
-            sides.append(a * (b / a) ** t if self.interpolation == "log" else a + (b - a) * t)
         inside = (middle > self.x[0]) & (middle < self.x[-1])
-        return np.where(inside[:, None], np.stack(sides, axis=1), 0.0)
-
-    def at(self, x: Array) -> Array:
-        """Return the mass per length at `x` [kg/m]; aft of the step where it jumps."""
-        k = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, len(self.ends) - 1)
-        a, b = self.ends[k].T
-        t = (x - self.x[k]) / (self.x[k + 1] - self.x[k])
-        return np.asarray(a * (b / a) ** t if self.interpolation == "log" else a + (b - a) * t)
+        return np.where(inside[:, None], super().between(x), 0.0)
 
     def moments(self, x: ArrayLike) -> Array:
         """Return the integrals of m, m x and m x^2 from the nose to `x`.
@@ -85,73 +92,42 @@ class MassDistribution:
             Mass [kg], first moment [kg m] and second moment [kg m^2] about the nose.
         """
         x = np.asarray(x, dtype=float)
-        k = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, len(self.ends) - 1)
-        return self._table[:, k] + self._partial(k, x - self.x[k])
+        k = self.interval(x)
+        return np.asarray(self.moments_ahead[..., k] + self._partial(k, x - self.x[k]))
 
     @cached_property
-    def _table(self) -> Array:
-        """Moments at the bounds of the intervals, (3, n+1)."""
-        each = self._partial(np.arange(len(self.ends)), np.diff(self.x))
-        return np.concatenate([np.zeros((3, 1)), np.cumsum(each, axis=1)], axis=1)
+    def moments_ahead(self) -> Array:
+        """Moments from the nose to the bounds of the intervals, (3, ..., n+1)."""
+        each = self._partial(np.arange(len(self.x) - 1), np.diff(self.x))
+        return np.concatenate([np.zeros_like(each[..., :1]), np.cumsum(each, axis=-1)], axis=-1)
 
-    def _partial(self, k: NDArray[np.intp], s: Array) -> Array:
+    def _partial(self, k: Integers, s: Array) -> Array:
         """Moments about the nose of the first `s` metres of the intervals `k`."""
-        J0, J1, J2 = self._log(k, s) if self.interpolation == "log" else self._polynomial(k, s)
-        x = self.x[k]
+        x, length = self.x[k], self.x[k + 1] - self.x[k]
+        a, b = self.ends[..., k, 0], self.ends[..., k, 1]
+        J0, J1, J2 = moments_within(a, b, length, s, self.interpolation)
         return np.stack([J0, x * J0 + J1, x * x * J0 + 2 * x * J1 + J2])
 
-    def _polynomial(self, k: NDArray[np.intp], s: Array) -> list[Array]:
-        a = self.ends[k, 0]
-        b = (self.ends[k, 1] - a) / (self.x[k + 1] - self.x[k])
-        return [a * s ** (p + 1) / (p + 1) + b * s ** (p + 2) / (p + 2) for p in range(3)]
 
-    def _log(self, k: NDArray[np.intp], s: Array) -> list[Array]:
-        a, ratio = self.ends[k, 0], self.ends[k, 1] / self.ends[k, 0]
-        t = s[..., None] * _NODES
-        m = a[..., None] * ratio[..., None] ** (t / (self.x[k + 1] - self.x[k])[..., None])
-        return [s * np.sum(_WEIGHTS * m * t**p, axis=-1) for p in range(3)]
+def state_shares(states: int, burn_fraction: Any) -> list[Any]:
+    """Return how much each state of mass counts at a burn fraction: 0 the first, 1 the last.
+
+    Between neighbouring states it is linear; the shares add up to 1.
+    """
+    place = np.asarray(burn_fraction) * (states - 1)
+    return [np.maximum(0.0, 1.0 - np.abs(place - k)) for k in range(states)]
 
 
-class MassTable(Frozen):
-    """A part that adds mass along some of the length, such as a tank: `[[...masses]]`."""
+def burnt(columns: Sequence[Array], burn_fraction: Any) -> Array:
+    """Return the column of mass per length at a burn fraction.
 
-    name: str = Field(default="part", max_length=200, description="what it is")
-    interpolation: Literal["step", "linear"] = Field(
-        default="step", description="how mass_per_length runs between its rows"
-    )
-    x: Annotated[Array, Column("m")] = Field(description="position [m], increasing")
-    mass_per_length: Annotated[Array, Column("kg/m")] = Field(
-        description="added mass per length [kg/m], at least 0"
-    )
-    burns: bool = Field(
-        default=False, description="whether it vanishes with burn_fraction (a vehicle's fuel)"
-    )
-
-    @model_validator(mode="after")
-    def _check_table(self) -> Self:
-        increasing(self.x)
-        m = self.mass_per_length
-        if len(m) != len(self.x):
-            raise ValueError(f"mass_per_length has {len(m)} rows, but x has {len(self.x)}")
-        finite("mass_per_length", m)
-        for i in np.flatnonzero(m < 0)[:1]:
-            raise ValueError(f"mass_per_length, row {i + 1}: received {m[i]:g}; must be at least 0")
-        return self
-
-    def distribution(self, burn_fraction: float = 0.0) -> MassDistribution:
-        """Return the mass along the axis."""
-        m = self.mass_per_length * ((1 - burn_fraction) if self.burns else 1.0)
-        after = m[:-1] if self.interpolation == "step" else m[1:]
-        return MassDistribution(self.x, np.stack([m[:-1], after], axis=1), self.interpolation)
-
-
-def check_on_body(masses: tuple[MassTable, ...], start: float, end: float, how: str) -> None:
-    """Raise ValueError unless every part lies on the body and can be added to its table."""
-    for part in masses:
-        if part.x[0] < start or part.x[-1] > end:
-            raise ValueError(
-                f"the part '{part.name}' runs from {part.x[0]:g} to {part.x[-1]:g} m, but the body "
-                f"from {start:g} to {end:g} m: correct its x"
-            )
-        if how == "log":
-            raise ValueError("parts cannot be added to a table with interpolation = 'log'")
+    Parameters
+    ----------
+    columns : sequence of array (..., rows)
+        The states of mass, from full to burnt out [kg/m].
+    burn_fraction : float or array (cases,)
+        From 0 to 1 [-].
+    """
+    shares = state_shares(len(columns), burn_fraction)
+    parts = [np.asarray(w)[..., None] * column for w, column in zip(shares, columns, strict=True)]
+    return np.asarray(sum(parts[1:], parts[0]))

@@ -23,6 +23,12 @@ LIMITS = _STEEPEST, _LONGEST, _MOST_HALVINGS
 """What the coarsest steps keep to: `riccati.lanes` makes the same ones."""
 
 
+def halved(values: Array) -> Array:
+    """Return means on the two halves of steps, from values at their Gauss points, (..., 2)."""
+    first, last = values[..., 0], values[..., 1]
+    return np.stack([NEAR * first + FAR * last, FAR * first + NEAR * last], axis=-1)
+
+
 def copies(times: Integers) -> tuple[Integers, Integers]:
     """Return, for entry k repeated ``times[k]`` times, every copy's k and its number from 0."""
     index = np.repeat(np.arange(len(times)), times)

@@ -47,7 +47,7 @@ def vehicle(scene: Scene) -> Drawn:
 
 def _reach(case: Case) -> float:
     """Largest height of body, fins and cavity [m]."""
-    return max(case.loads.cavity.D_c / 2, *(fins.tip_radius for fins in case.vehicle.fins))
+    return max(case.loads.cavity_diameter / 2, *(fins.tip_radius for fins in case.vehicle.fins))
 
 
 def _vehicle_caption(case: Case) -> str:

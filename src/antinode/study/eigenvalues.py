@@ -19,7 +19,7 @@ from antinode.modes.batch import BeamBatch, solve_many
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.vehicle.case import Case
-from antinode.vehicle.derivatives import Modes, Sensitivity
+from antinode.vehicle.derivatives import ChainModes, EigenvalueDerivatives
 from antinode.vehicle.loads import Loads
 
 Wanted = Mapping[FamilyName, int]
@@ -36,17 +36,17 @@ class CaseEigenvalues:
     loads : Loads
     beam : Beam
     modes : dict
-        `Modes` 1 ... n by family, rigid ones left out.
+        `ChainModes` 1 ... n by family, rigid ones left out.
     """
 
     case: Case
     loads: Loads
     beam: Beam
-    modes: Mapping[FamilyName, Modes] = field(repr=False)
+    modes: Mapping[FamilyName, ChainModes] = field(repr=False)
 
-    def sensitivity(self, family: FamilyName) -> Sensitivity:
+    def sensitivity(self, family: FamilyName) -> EigenvalueDerivatives:
         """Return the derivatives of the eigenvalues of a family."""
-        return Sensitivity(self.modes[family], self.beam, self.loads)
+        return EigenvalueDerivatives(self.modes[family], self.beam, self.loads)
 
     def frequencies_hz(self, family: FamilyName) -> Array:
         """Return the frequencies of modes 1, 2, ... [Hz]; negative for a divergent mode."""
@@ -77,16 +77,16 @@ def eigenvalues_of(
         If its loads or its eigenvalues cannot be computed.
     """
     beams = [case.beam() for case in cases]
-    modes: list[dict[FamilyName, Modes]] = [{} for _ in cases]
+    modes: list[dict[FamilyName, ChainModes]] = [{} for _ in cases]
     rows = [k for k, families in enumerate(wanted) if BENDING in families]
     chains = [beams[k].chain(BENDING, refinement) for k in rows]
     numbers = [wanted[k][BENDING] for k in rows]
     for k, chain, omega2 in zip(rows, chains, _bending(chains, numbers), strict=True):
-        modes[k][BENDING] = Modes(chain, omega2)
+        modes[k][BENDING] = ChainModes(chain, omega2)
     for k, families in enumerate(wanted):
         if LONGITUDINAL in families:
             chain = beams[k].chain(LONGITUDINAL, refinement)
-            modes[k][LONGITUDINAL] = Modes(chain, _solve(chain, families[LONGITUDINAL], 1, 1))
+            modes[k][LONGITUDINAL] = ChainModes(chain, _solve(chain, families[LONGITUDINAL], 1, 1))
     return tuple(map(CaseEigenvalues, cases, [case.loads for case in cases], beams, modes))
 
 

@@ -13,13 +13,14 @@ from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
 from antinode.beam.file import Solve
 from antinode.beam.limits import check_limits
-from antinode.errors import ComputationError, InputError
+from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import naming, read_tables
 from antinode.inputs.units import Frozen
 
 from .condition import OperatingCondition, Water
 from .loads import Loads, compute_loads
+from .numbers import ManyCases, Numbers
 from .options import Model
 from .vehicle import Section, Vehicle
 
@@ -31,11 +32,6 @@ COLUMNS = (
     "radius",
     "radius_of_gyration",
     "wall",
-)
-
-
-_BEYOND = (
-    "the loads are too large or too small for numbers; check the case for values of a wrong unit"
 )
 
 
@@ -51,13 +47,13 @@ class Case(Frozen):
     @cached_property
     def loads(self) -> Loads:
         """Cavity, forces, accelerations and internal forces in this condition."""
-        try:
-            loads = compute_loads(self.vehicle, self.condition, self.water, self.model)
-        except (OverflowError, ZeroDivisionError) as error:
-            raise ComputationError(_BEYOND) from error
-        if not np.all(np.isfinite([*loads.body, *loads.axial_jump])):
-            raise ComputationError(_BEYOND)
-        return loads
+        return compute_loads(self.vehicle, self.condition, self.water, self.model)
+
+    def many(self, numbers: Numbers, cases: int) -> ManyCases:
+        """Return cases that differ from this one in some numbers."""
+        return ManyCases(
+            self.vehicle, self.condition, self.water, self.model, numbers=numbers, cases=cases
+        )
 
     def beam(self) -> Beam:
         """Return the free-free beam under the axial force of this condition."""

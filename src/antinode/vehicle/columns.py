@@ -8,7 +8,7 @@ from antinode.arrays import Array
 from antinode.errors import InputError
 from antinode.text import nearest, short
 
-from .paths import Keys
+from .numbers import Keys
 from .vehicle import Stations, Vehicle
 
 _MASS = "mass_per_length"

@@ -1,20 +1,12 @@
-"""The operating condition and the water, and the cavitation number that follows from them.
-
-Equation 1: ``sigma = (p_atm + rho g depth - p_c) / (rho V^2 / 2)``, where p_c is the vapour
-pressure unless a cavity (ventilation) pressure is given. Sigma alone says nothing about depth.
-
-Source: "Analysis of the Natural Vibration Characteristics of a Supercavitating Underwater Vehicle
-Considering Hydrodynamic Conditions", eq. 1.
-"""
+"""The operating condition and the water."""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated, NamedTuple, Self
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
-from antinode.errors import InputError
 from antinode.inputs.units import (
     Acceleration,
     Angle,
@@ -91,130 +83,3 @@ class OperatingCondition(Frozen):
         if self.cavitation_number is None and self.depth is None:
             raise ValueError("cavitation_number or depth is missing: give at least one of them")
         return self
-
-
-_AGREEMENT = 1e-3  # of sigma q, within which sigma, depth and cavity pressure may disagree
-
-
-class Cavitation(NamedTuple):
-    """The state of cavitation: sigma, and what it implies where enough is known.
-
-    Attributes
-    ----------
-    sigma : float
-        Cavitation number [-].
-    cavity_pressure : float or None
-        Pressure in the cavity [Pa]; None where sigma alone is given.
-    depth : float or None
-        Depth [m]; None where it neither is given nor follows.
-    """
-
-    sigma: float
-    cavity_pressure: float | None
-    depth: float | None
-
-
-def cavitation_number(
-    static_pressure: float, cavity_pressure: float, density: float, speed: float
-) -> float:
-    """Cavitation number by eq. 1.
-
-    Parameters
-    ----------
-    static_pressure : float
-        Pressure at the vehicle's depth [Pa].
-    cavity_pressure : float
-        Pressure in the cavity [Pa].
-    density : float
-        Density of the water [kg/m^3].
-    speed : float
-        Speed of the vehicle [m/s].
-
-    Returns
-    -------
-    float
-        sigma [-].
-    """
-    return (static_pressure - cavity_pressure) / (density * speed**2 / 2)
-
-
-def resolve_cavitation(condition: OperatingCondition, water: Water) -> Cavitation:
-    """Work out sigma, cavity pressure and depth from those that are given.
-
-    Parameters
-    ----------
-    condition : OperatingCondition
-        Gives sigma or depth, and perhaps the cavity pressure.
-    water : Water
-        Gives the pressures and the density.
-
-    Returns
-    -------
-    Cavitation
-        Given and implied values.
-
-    Raises
-    ------
-    InputError
-        If the given values contradict each other, or cannot be.
-    """
-    if condition.cavitation_number is None:
-        return _from_depth(condition, water)
-    if condition.depth is not None:
-        return _from_sigma_and_depth(condition, condition.cavitation_number, condition.depth, water)
-    if condition.cavity_pressure is not None:
-        return _from_pressure(
-            condition.cavitation_number, condition.cavity_pressure, condition, water
-        )
-    return Cavitation(condition.cavitation_number, None, None)
-
-
-def _static_pressure(depth: float, water: Water) -> float:
-    return water.atmospheric_pressure + water.density * water.gravity * depth
-
-
-def _from_depth(condition: OperatingCondition, water: Water) -> Cavitation:
-    depth, p_c = condition.depth or 0.0, condition.cavity_pressure
-    p_c = water.vapour_pressure if p_c is None else p_c
-    p = _static_pressure(depth, water)
-    sigma = cavitation_number(p, p_c, water.density, condition.speed)
-    if not 0 < sigma < 1:
-        made = (
-            f"condition.depth = {depth:g} m, {condition.speed:g} m/s and {p_c:g} Pa in the cavity"
-        )
-        say = "must lie between 0 and 1: change speed, depth or cavity_pressure"
-        raise InputError(f"{made} make the cavitation number {sigma:.4g}; it {say}")
-    return Cavitation(sigma, p_c, depth)
-
-
-def _from_sigma_and_depth(
-    condition: OperatingCondition, sigma: float, depth: float, water: Water
-) -> Cavitation:
-    """Imply a cavity pressure, which must not be negative, nor disagree with a given one."""
-    q = water.density * condition.speed**2 / 2
-    p_c = _static_pressure(depth, water) - sigma * q
-    given = condition.cavity_pressure
-    both = (
-        f"condition.cavitation_number = {sigma:g} and depth = {depth:g} m imply a cavity pressure"
-    )
-    if p_c < 0:
-        raise InputError(f"{both} of {p_c:.6g} Pa, which must be at least 0: leave out the depth")
-    allowed = _AGREEMENT * sigma * q
-    if given is not None and abs(given - p_c) > allowed:
-        say = f"they may differ by {allowed:.3g} Pa (0.1 % of sigma q): leave out one of the three"
-        raise InputError(f"{both} of {p_c:.6g} Pa, but cavity_pressure = {given:.6g} Pa; {say}")
-    return Cavitation(sigma, p_c, depth)
-
-
-def _from_pressure(
-    sigma: float, p_c: float, condition: OperatingCondition, water: Water
-) -> Cavitation:
-    """Imply a static pressure, hence a depth, by sigma and the cavity pressure."""
-    p = p_c + sigma * water.density * condition.speed**2 / 2
-    p_atm = water.atmospheric_pressure
-    if p < p_atm * (1 - 1e-9):
-        both = f"condition.cavitation_number = {sigma:g} and cavity_pressure = {p_c:g} Pa"
-        say = f"below the atmosphere's {p_atm:g} Pa: leave out one of them"
-        raise InputError(f"{both} imply a static pressure of {p:.6g} Pa, {say}")
-    weight = water.density * water.gravity
-    return Cavitation(sigma, p_c, max(0.0, p - p_atm) / weight if weight > 0 else None)

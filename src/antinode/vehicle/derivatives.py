@@ -26,11 +26,14 @@ import numpy.typing as npt
 from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
+from antinode.beam.mass import moments_within
+from antinode.beam.profile import Profile
 from antinode.modes.backends import BackendName, choose
 from antinode.riccati.chain import Chain, largest_wave_number
 from antinode.riccati.shapes import propagate
 
-from .loads import Loads, PointForce
+from .forces import ForceOnBody
+from .loads import Loads
 
 _SHORT = 0.5  # wave number times length up to which three points integrate squares to 1e-9
 
@@ -41,11 +44,11 @@ def _gauss(points: int) -> tuple[Array, Array]:
     return (nodes + 1) / 2, weights / 2
 
 
-_FEW, _MANY, _FINE = _gauss(3), _gauss(8), _gauss(12)
+_FEW, _MANY = _gauss(3), _gauss(8)
 
 
 @dataclass(frozen=True)
-class Modes:
+class ChainModes:
     """Eigenvalues of one family on a chain, with what the derivatives need of their shapes.
 
     Attributes
@@ -188,15 +191,14 @@ def _integrals(x: Array, stations: Array, column: Array, how: Interpolation) -> 
 
 def _partial(k: npt.NDArray[np.int64], t: Array, column: Array, how: Interpolation) -> Array:
     """Integrate the derivatives over the first part of intervals, over the intervals' lengths."""
-    rows, part = np.arange(len(column)), t[:, None]
+    rows = np.arange(len(column))
     first, second = rows == k[:, None], rows == k[:, None] + 1
     if how == "step":
-        return np.asarray(part * first)
-    if how == "linear":
-        return np.asarray((part - part**2 / 2) * first + part**2 / 2 * second)
-    nodes, weights = _FINE
-    inner = _hat(np.repeat(k[:, None], len(nodes), axis=1), part * nodes, column, how)
-    return np.asarray(np.einsum("g,qgs->qs", weights, inner) * part)
+        return np.asarray(t[:, None] * first)
+    one = np.ones(len(k))
+    a, b = (column[k], column[k + 1]) if how == "log" else (one, one)
+    J0, J1, _ = moments_within(a, b, one, t, how)
+    return np.asarray(((J0 - J1) / a)[:, None] * first + (J1 / b)[:, None] * second)
 
 
 class ForceChange(NamedTuple):
@@ -217,17 +219,17 @@ class MassChange(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Sensitivity:
+class EigenvalueDerivatives:
     """Derivatives of the eigenvalues of one family of a vehicle in a condition.
 
     Attributes
     ----------
-    modes : Modes
+    modes : ChainModes
     beam : Beam
     loads : Loads
     """
 
-    modes: Modes
+    modes: ChainModes
     beam: Beam
     loads: Loads
 
@@ -283,7 +285,7 @@ class Sensitivity:
             self.loads,
             F_CX=unit[0].F_X,
             forces=tuple(unit),
-            body=self.loads.body._replace(a_X=0.0),
+            a_X=0.0,
         )
         return alone.axial_jump
 
@@ -313,15 +315,12 @@ class Sensitivity:
         """Return derivatives by the rows of the column of EI or EA, shape (stations, k)."""
         k = np.clip(np.searchsorted(stations, self.modes.x, "right") - 1, 0, len(stations) - 2)
         t = (self.modes.x - stations[k]) / np.diff(stations)[k]
-        value = column[k]
-        if how != "step":
-            far = column[k + 1]
-            value = value * (far / value) ** t if how == "log" else value + (far - value) * t
+        value = Profile.of_rows(stations, column, how).at(self.modes.x)
         return np.asarray(_hat(k, t, column, how).T @ self.modes.by_stiffness(value))
 
 
 def force_changes(
-    lower: tuple[PointForce, ...], upper: tuple[PointForce, ...], step: float
+    lower: tuple[ForceOnBody[float], ...], upper: tuple[ForceOnBody[float], ...], step: float
 ) -> tuple[ForceChange, ...]:
     """Return how forces and places change, from those at both ends of a step of a parameter."""
     low, high = ({f.name: f for f in forces} for forces in (lower, upper))

@@ -19,9 +19,13 @@ from antinode.beam.families import FAMILIES
 
 from .case import Case
 from .columns import column_values
-from .derivatives import ForceChange, MassChange, Sensitivity, force_changes
-from .loads import PointForce, point_forces
-from .paths import Keys, Place, replaced, value_at
+from .derivatives import EigenvalueDerivatives, ForceChange, MassChange, force_changes
+from .forces import ForceOnBody, forces_of
+from .many_loads import loads_of_many
+from .numbers import Keys, Numbers, is_vectorised, replaced, value_at
+from .paths import Place
+
+Forces = tuple[ForceOnBody[float], ...]
 
 _STEP = 2e-6
 _STATIONS = ("vehicle", "stations")
@@ -31,13 +35,6 @@ _STIFFNESS = {family.stiffness: name for name, family in FAMILIES.items()}
 """Columns of stiffness, and the family that each of them belongs to."""
 _BURN = ("condition", "burn_fraction")
 _THRUST = ("condition", "thrust")
-_BESIDE_THE_HULL = (
-    ("vehicle", "fins"),
-    ("condition", "fin_position"),
-    ("condition", "extra_drag"),
-    ("condition", "extra_drag_position"),
-)
-"""Where numbers stand that neither cavity nor planing depend on."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +58,7 @@ class Effect:
     forces: tuple[ForceChange, ...] = ()
     mass: MassChange | None = None
 
-    def slope(self, sensitivity: Sensitivity) -> Array:
+    def slope(self, sensitivity: EigenvalueDerivatives) -> Array:
         """Return d(omega^2) of every mode for each unit of the number, shape (k,)."""
         total = self.thrust * sensitivity.by_thrust
         if self.row is not None:
@@ -100,9 +97,8 @@ def effects_between(case: Case, place: Place, values: Sequence[float]) -> list[E
     if keys[:2] == _STATIONS and keys[2] != "radius":
         row = _column(keys[2:-1]), int(keys[-1])
         return [Effect(case, row=row)] * (len(values) - 1)
-    base = _without_planing(case) if keys[:2] in _BESIDE_THE_HULL else case
-    cases = [replaced(base, keys, value) for value in values]
-    forces = [_forces(c) for c in cases]
+    cases = [replaced(case, keys, value) for value in values]
+    forces = _forces_at(case, keys, values) if is_vectorised(keys) else [_forces(c) for c in cases]
     steps = [high - low for low, high in pairwise(values)]
     masses: list[MassChange | None] = [None] * len(steps)
     if keys == _BURN or keys[:2] == _MASSES:
@@ -125,7 +121,7 @@ def effect_of_radius(case: Case, weights: Array) -> Effect:
     return Effect(case, forces=force_changes(low, high, 2 * _STEP))
 
 
-def by_logarithm(case: Case, keys: Keys, sensitivity: Sensitivity) -> Array:
+def by_logarithm(case: Case, keys: Keys, sensitivity: EigenvalueDerivatives) -> Array:
     """Return derivatives by the logarithms of a column's rows, shape (stations, k).
 
     Parameters
@@ -133,13 +129,13 @@ def by_logarithm(case: Case, keys: Keys, sensitivity: Sensitivity) -> Array:
     case : Case
     keys : tuple
         From the stations to a column of mass or stiffness.
-    sensitivity : Sensitivity
+    sensitivity : EigenvalueDerivatives
     """
     column = column_values(case.vehicle.stations, keys)
     return by_rows(case, _column(keys), sensitivity) * column[:, None]
 
 
-def by_rows(case: Case, key: str, sensitivity: Sensitivity) -> Array:
+def by_rows(case: Case, key: str, sensitivity: EigenvalueDerivatives) -> Array:
     """Return derivatives by the rows of a column such as ``mass_per_length:burnt``."""
     vehicle = case.vehicle
     stations, how = vehicle.stations, vehicle.interpolation
@@ -165,13 +161,21 @@ def _share(state: str, states: Sequence[str], burn_fraction: float) -> float:
     return max(0.0, 1.0 - abs(place - states.index(state)))
 
 
-def _without_planing(case: Case) -> Case:
-    """Return the case without the planing forces, the dearest part of the loads."""
-    return replaced(case, ("model", "planing"), "none")
+def _forces(case: Case) -> Forces:
+    """Return the forces on the body but the thrust."""
+    return _checked_forces(case, {}, 1)[0]
 
 
-def _forces(case: Case) -> tuple[PointForce, ...]:
-    return point_forces(case.vehicle, case.condition, case.water, case.model)
+def _forces_at(case: Case, keys: Keys, values: Sequence[float]) -> list[Forces]:
+    """Return the same at several values of a number, all worked out at once."""
+    return _checked_forces(case, {keys: np.array(values)}, len(values))
+
+
+def _checked_forces(case: Case, numbers: Numbers, cases: int) -> list[Forces]:
+    loads = loads_of_many(case.many(numbers, cases))
+    for k in range(cases):
+        loads.refusals.check(k)
+    return [forces_of(loads.hydrodynamics.forces, k) for k in range(cases)]
 
 
 def _natural_size(place: Place) -> float:

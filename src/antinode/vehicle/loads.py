@@ -1,7 +1,6 @@
-"""Loads on the body in motion: rigid-body balance, axial force, shear force and bending moment.
+"""Loads on a body in motion: axial force, shear force and bending moment along it.
 
-``a_X = (T - F_PX - sum F_fX - F_CX) / m``, ``a_Y = (F_CY + sum F_fY + F_PY - m g) / m``,
-``beta = sum F_Y (x_M - x) / I``: forward, up and nose-up positive. With x [m] aft from the nose
+With x [m] aft from the nose and the accelerations of `balance.py`
 
 - ``N(x) = F_CX + a_X m_ahead(x) + sum F_X [x > x_i]``, compression positive: the cavitator's drag
   at the nose, the thrust at the tail;
@@ -11,7 +10,7 @@
 The integrals over the mass are exact, so the balance closes to rounding.
 
 Source: "Analysis of the Natural Vibration Characteristics of a Supercavitating Underwater Vehicle
-Considering Hydrodynamic Conditions", eq. 18-26. There the distance X runs forward from the tail:
+Considering Hydrodynamic Conditions", eq. 21-26. There the distance X runs forward from the tail:
 X = L - x. The weight, a body force, is missing in its eq. 24 and 26.
 """
 
@@ -29,34 +28,19 @@ from antinode.arrays import Array
 from antinode.beam.mass import MassDistribution
 from antinode.errors import InputError
 
-from .condition import Cavitation, OperatingCondition, Water, resolve_cavitation
-from .hydrodynamics import cavitator, cavity, fins, planing
-from .hydrodynamics.cavity import Cavity, form_cavity
-from .hydrodynamics.planing import Planing, planing_state
-from .hydrodynamics.validity import Range, Validity
+from .cavitation import cavitation_of
+from .condition import OperatingCondition, Water
+from .forces import FinLoads, ForceOnBody, drag_ahead, forces_of
+from .hydrodynamics.cavity import Cavity
+from .hydrodynamics.planing import Planing
+from .hydrodynamics.validity import Validity
+from .load_warnings import validity_of
+from .many_loads import LoadNumbers, ManyLoads, loads_of_many
+from .numbers import ManyCases
 from .options import Model
-from .vehicle import FinSet, Vehicle
+from .vehicle import Vehicle
 
 Side = Literal["left", "right"]
-
-
-class PointForce(NamedTuple):
-    """A force at one station.
-
-    Attributes
-    ----------
-    name : str
-        Where it comes from.
-    x : float
-        Where it acts [m].
-    F_X, F_Y : float
-        Drag, positive aft, and lift, positive up [N].
-    """
-
-    name: str
-    x: float
-    F_X: float
-    F_Y: float
 
 
 class FinLoad(NamedTuple):
@@ -76,31 +60,6 @@ class FinLoad(NamedTuple):
     immersion: tuple[float, ...]
     F_fX: float
     F_fY: float
-
-
-class RigidBody(NamedTuple):
-    """Mass and accelerations of the body as a whole.
-
-    Attributes
-    ----------
-    mass : float
-        Mass [kg].
-    x_M : float
-        Centre of mass [m].
-    inertia : float
-        Moment of inertia about the centre of mass [kg m^2].
-    a_X, a_Y : float
-        Accelerations, forward and up positive [m/s^2].
-    beta : float
-        Angular acceleration, nose-up positive [rad/s^2].
-    """
-
-    mass: float
-    x_M: float
-    inertia: float
-    a_X: float
-    a_Y: float
-    beta: float
 
 
 class Checks(NamedTuple):
@@ -130,8 +89,8 @@ class Checks(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Loads:
-    """Everything that acts on the body in one condition.
+class Loads(LoadNumbers[float]):
+    """Everything that acts on the body in one condition: the `LoadNumbers`, and what follows.
 
     Parameters
     ----------
@@ -139,8 +98,6 @@ class Loads:
         The cavity.
     cavity_pressure, depth : float or None
         Given or implied pressure in the cavity [Pa] and depth [m]; None where nothing says so.
-    F_CX, F_CY : float
-        Drag (aft) and lift (up) of the cavitator [N].
     fins : tuple of FinLoad
         Forces of each set of fins.
     planing : Planing
@@ -149,9 +106,7 @@ class Loads:
         Thrust at the tail, forward [N].
     gravity : float
         g [m/s^2].
-    body : RigidBody
-        Mass, centre and accelerations.
-    forces : tuple of PointForce
+    forces : tuple of ForceOnBody
         Forces on the body but the thrust, cavitator first.
     mass_distribution : MassDistribution
         Mass along the axis.
@@ -166,23 +121,15 @@ class Loads:
     cavity: Cavity
     cavity_pressure: float | None
     depth: float | None
-    F_CX: float
-    F_CY: float
     fins: tuple[FinLoad, ...]
     planing: Planing
     thrust: float
     gravity: float
-    body: RigidBody
-    forces: tuple[PointForce, ...]
+    forces: tuple[ForceOnBody[float], ...]
     mass_distribution: MassDistribution
     axial_model: Literal["exact", "element_midpoint"]
     warnings: tuple[str, ...]
     validity: tuple[Validity, ...]
-
-    @property
-    def sigma(self) -> float:
-        """Cavitation number [-]."""
-        return self.cavity.sigma
 
     @property
     def length(self) -> float:
@@ -190,64 +137,9 @@ class Loads:
         return float(self.mass_distribution.x[-1])
 
     @property
-    def F_fX(self) -> float:
-        """Drag of all fins [N], positive aft."""
-        return sum(fin.F_fX for fin in self.fins)
-
-    @property
-    def F_fY(self) -> float:
-        """Lift of all fins [N], up positive."""
-        return sum(fin.F_fY for fin in self.fins)
-
-    @property
-    def F_PX(self) -> float:
-        """Planing drag [N], positive aft."""
-        return self.planing.F_PX
-
-    @property
-    def F_PY(self) -> float:
-        """Planing lift [N], up positive."""
-        return self.planing.F_PY
-
-    @property
-    def x_P(self) -> float:
-        """Where the planing forces act [m]."""
-        return self.planing.x_P
-
-    @property
-    def mass(self) -> float:
-        """Mass of the body [kg]."""
-        return self.body.mass
-
-    @property
-    def x_M(self) -> float:
-        """Centre of mass [m]."""
-        return self.body.x_M
-
-    @property
-    def inertia(self) -> float:
-        """Moment of inertia about the centre of mass [kg m^2]."""
-        return self.body.inertia
-
-    @property
-    def a_X(self) -> float:
-        """Acceleration along the axis, forward positive [m/s^2]."""
-        return self.body.a_X
-
-    @property
-    def a_Y(self) -> float:
-        """Lateral acceleration of the centre of mass, up positive [m/s^2]."""
-        return self.body.a_Y
-
-    @property
-    def beta(self) -> float:
-        """Angular acceleration, nose-up positive [rad/s^2]."""
-        return self.body.beta
-
-    @property
     def weight(self) -> float:
         """Weight m g [N]."""
-        return self.body.mass * self.gravity
+        return self.mass * self.gravity
 
     @property
     def axial_inertia(self) -> float:
@@ -365,13 +257,12 @@ class Loads:
             raise InputError(f"x = {x} m is not on the body: must lie within 0 and {self.length:g}")
         return x
 
-    def _counts(self, force: PointForce, x: Array, side: Side) -> NDArray[np.bool_]:
+    def _counts(self, force: ForceOnBody[float], x: Array, side: Side) -> NDArray[np.bool_]:
         """Whether a force counts as ahead of `x`: all of them do at the tail."""
         return (x > force.x if side == "left" else x >= force.x) | (x >= self.length)
 
     def _drag_ahead(self, x: Array, side: Side) -> Array:
-        jumps = sum(force.F_X * self._counts(force, x, side) for force in self.forces[1:])
-        return np.asarray(self.F_CX + jumps + 0 * x)
+        return np.asarray(drag_ahead(self.forces, lambda f: self._counts(f, x, side)) + 0 * x)
 
     def __str__(self) -> str:
         return "\n".join(self._lines())
@@ -425,257 +316,43 @@ def compute_loads(
     ------
     InputError
         If the input contradicts itself or cannot be: pressures, or fins that are off the body.
+    ComputationError
+        If the loads are beyond what numbers can hold.
     """
-    water, model = water or Water(), model or Model()
-    state = resolve_cavitation(condition, water)
-    return _assembled(
-        vehicle, condition, water, state, *_hydrodynamics(vehicle, condition, water, model, state)
-    )
+    cases = ManyCases(vehicle, condition, water or Water(), model or Model())
+    return loads_of_case(loads_of_many(cases), 0)
 
 
-def point_forces(
-    vehicle: Vehicle, condition: OperatingCondition, water: Water, model: Model
-) -> tuple[PointForce, ...]:
-    """Return the forces on the body but the thrust, cavitator first: `Loads.forces` alone."""
-    state = resolve_cavitation(condition, water)
-    return _hydrodynamics(vehicle, condition, water, model, state).forces
+def loads_of_case(many: ManyLoads, case: int) -> Loads:
+    """Return the loads of one of many cases.
 
-
-class _Hydrodynamics(NamedTuple):
-    """The cavity and what acts on the body."""
-
-    cavity: Cavity
-    fins: tuple[FinLoad, ...]
-    tail: Planing
-    forces: tuple[PointForce, ...]
-
-
-def _hydrodynamics(
-    vehicle: Vehicle,
-    condition: OperatingCondition,
-    water: Water,
-    model: Model,
-    state: Cavitation,
-) -> _Hydrodynamics:
-    hole = _cavity(vehicle, condition, water, model, state.sigma)
-    fin_loads = tuple(
-        _fin_load(vehicle, fin, number, condition, water.density, hole)
-        for number, fin in enumerate(vehicle.fins, 1)
-    )
-    tail = _planing(vehicle, hole, water, condition.speed)
-    forces = _forces(vehicle, _disk_force(hole, water, condition.speed), fin_loads, tail)
-    return _Hydrodynamics(hole, fin_loads, tail, (*forces, *_extra_drag(vehicle, condition)))
-
-
-def _extra_drag(vehicle: Vehicle, condition: OperatingCondition) -> Iterator[PointForce]:
-    """Yield the drag that the condition itself gives, if it does."""
-    if condition.extra_drag is None:
-        return
-    places = (condition.extra_drag_position, condition.fin_position, vehicle.length)
-    x = next(place for place in places if place is not None)
-    if x > vehicle.length:
-        say = f"must lie on the body, within 0 and {vehicle.length:g} m: correct it"
-        raise InputError(f"condition.extra_drag_position: received {x:g} m; it {say}")
-    yield PointForce("extra drag", _snapped(x, vehicle.stations.x), condition.extra_drag, 0.0)
-
-
-def _assembled(
-    vehicle: Vehicle,
-    condition: OperatingCondition,
-    water: Water,
-    state: Cavitation,
-    hole: Cavity,
-    fin_loads: tuple[FinLoad, ...],
-    tail: Planing,
-    forces: tuple[PointForce, ...],
-) -> Loads:
-    """Balance the forces, check the ranges, and put everything together."""
-    mass = vehicle.mass_distribution(condition.burn_fraction)
-    ranges = list(_ranges(vehicle, hole, tail))
+    Raises
+    ------
+    InputError, ComputationError
+        If the case is refused: the reason.
+    """
+    many.refusals.check(case)
+    found, cases, mass = many.hydrodynamics, many.cases, many.mass_distribution
+    own = mass.ends[case] if mass.ends.ndim == 3 else mass.ends
     return Loads(
-        cavity=hole,
-        cavity_pressure=state.cavity_pressure,
+        **{name: float(v[case]) for name, v in many.numbers.items()},
+        cavity=found.cavity.of(case),
+        cavity_pressure=(state := cavitation_of(found.state, case)).cavity_pressure,
         depth=state.depth,
-        F_CX=forces[0].F_X,
-        F_CY=forces[0].F_Y,
-        fins=fin_loads,
-        planing=tail,
-        thrust=condition.thrust,
-        gravity=water.gravity,
-        body=_balance(forces, mass, condition.thrust, water.gravity),
-        forces=forces,
-        mass_distribution=mass,
-        axial_model=hole.model.axial_force,
-        warnings=tuple(_warnings(vehicle, hole, fin_loads, tail, ranges)),
-        validity=tuple(known.check(value) for known, value in ranges),
+        fins=tuple(_fin_load(fin, case) for fin in found.fins),
+        planing=found.planing.of(case),
+        thrust=float(cases.number("condition", "thrust")[case]),
+        gravity=float(cases.number("water", "gravity")[case]),
+        forces=forces_of(found.forces, case),
+        mass_distribution=MassDistribution(mass.x, own, mass.interpolation),
+        axial_model=cases.model.axial_force,
+        warnings=tuple(w.sentence(case) for w in many.warnings if w.concerns[case]),
+        validity=validity_of(many.ranges, case),
     )
 
 
-def _cavity(
-    vehicle: Vehicle, condition: OperatingCondition, water: Water, model: Model, sigma: float
-) -> Cavity:
-    return form_cavity(
-        vehicle.cavitator.diameter,
-        sigma,
-        speed=condition.speed,
-        gravity=water.gravity,
-        body_length=vehicle.length,
-        body_angle=condition.body_angle,
-        cavitator_angle=condition.cavitator_angle,
-        model=model,
+def _fin_load(fin: FinLoads, case: int) -> FinLoad:
+    immersion = tuple(map(float, fin.immersion[:, case]))
+    return FinLoad(
+        float(fin.position[case]), immersion, float(fin.F_fX[case]), float(fin.F_fY[case])
     )
-
-
-def _fin_place(
-    vehicle: Vehicle, fin: FinSet, number: int, condition: OperatingCondition
-) -> tuple[float, float]:
-    """Position of a set and radius of the body there [m]; the fin must stand on the body."""
-    x = condition.fin_position if fin.position is None else fin.position
-    if x is None:
-        say = "give the set a position, or the condition a fin_position"
-        raise InputError(f"vehicle.fins, set {number}: received no position: {say}")
-    L = vehicle.length
-    if x > L:
-        say = f"must lie on the body, within 0 and {L:g} m: move the fins"
-        raise InputError(f"vehicle.fins, set {number}: received position {x:g} m; it {say}")
-    R = float(vehicle.radius_at(x))
-    if fin.tip_radius <= R:
-        wrong = f"vehicle.fins, set {number}: received tip_radius {fin.tip_radius:g} m"
-        say = f"must be greater than the body's radius of {R:g} m at x = {x:g} m: correct it"
-        raise InputError(f"{wrong}; it {say}")
-    return x, R
-
-
-def _fin_load(
-    vehicle: Vehicle,
-    fin: FinSet,
-    number: int,
-    condition: OperatingCondition,
-    rho: float,
-    hole: Cavity,
-) -> FinLoad:
-    x, R = _fin_place(vehicle, fin, number, condition)
-    phi, V = np.array(fin.roll_angles), condition.speed
-    radial = hole.model.fin_immersion == "radial"
-    immersion = fins.radial_immersion if radial else fins.tip_immersion
-    h_f = immersion(R, fin.tip_radius, phi, float(hole.axis_offset(x)), float(hole.radius(x)))
-    drag = fins.fin_drag(rho, V, hole.sigma, h_f, fin.thickness)
-    slope = fin.lift_slope if hole.model.fin_lift == "plate" else 0.0
-    area = h_f * (fin.chord if fin.chord is not None else fin.tip_radius - R)
-    incidence = fins.fin_incidence(hole.theta, fin.deflection, phi)
-    lift = fins.fin_lift(rho, V, slope, area, incidence, phi)
-    return FinLoad(x, tuple(map(float, h_f)), float(drag.sum()), float(lift.sum()))
-
-
-def _disk_force(hole: Cavity, water: Water, speed: float) -> PointForce:
-    drag, lift = cavitator.cavitator_forces(water.density, speed, hole.sigma, hole.D_n, hole.alpha)
-    return PointForce("cavitator", 0.0, float(drag), float(lift))
-
-
-def _planing(vehicle: Vehicle, hole: Cavity, water: Water, speed: float) -> Planing:
-    x = vehicle.stations.x
-    rho, mu = water.density, water.dynamic_viscosity
-    state = planing_state(hole, vehicle.radius_at, x, rho, speed, mu)
-    return state if hole.model.planing == "paper" else state.without_force()
-
-
-def _forces(
-    vehicle: Vehicle, disk: PointForce, fin_loads: tuple[FinLoad, ...], tail: Planing
-) -> tuple[PointForce, ...]:
-    """Gather the point forces, cavitator first."""
-    x = vehicle.stations.x
-    finned = [
-        PointForce(f"fin set {number}", _snapped(fin.position, x), fin.F_fX, fin.F_fY)
-        for number, fin in enumerate(fin_loads, 1)
-    ]
-    forces = [disk, *finned]
-    if tail.F_PX or tail.F_PY:
-        forces.append(PointForce("planing", _snapped(tail.x_P, x), tail.F_PX, tail.F_PY))
-    return tuple(forces)
-
-
-def _snapped(position: float, stations: Array) -> float:
-    """Return the station that is the same as a position but for rounding, or the position."""
-    nearest = float(stations[np.argmin(np.abs(stations - position))])
-    return nearest if abs(nearest - position) <= 1e-9 * stations[-1] else position
-
-
-def _balance(
-    forces: tuple[PointForce, ...], distribution: MassDistribution, thrust: float, gravity: float
-) -> RigidBody:
-    """Eq. 18-20, with the exact integrals of the mass."""
-    m, J1, J2 = map(float, distribution.moments(distribution.x[-1]))
-    x_M = J1 / m
-    inertia = J2 - x_M * J1
-    a_X = (thrust - sum(force.F_X for force in forces)) / m
-    a_Y = sum(force.F_Y for force in forces) / m - gravity
-    beta = sum(force.F_Y * (x_M - force.x) for force in forces) / inertia
-    return RigidBody(m, x_M, inertia, a_X, a_Y, beta)
-
-
-def _ranges(vehicle: Vehicle, hole: Cavity, tail: Planing) -> Iterator[tuple[Range, float]]:
-    """Every range that this condition touches, with the value."""
-    sigma, alpha = hole.sigma, abs(hole.alpha)
-    yield cavitator.DRAG_RANGE, sigma
-    yield cavitator.ANGLE_RANGE, alpha
-    yield cavity.SIZE_RANGE, sigma
-    if hole.model.gravity_rise != "none":
-        yield cavity.RISE_RANGE, hole.Fr_L
-    if hole.model.distortion != "none":
-        yield cavity.DISTORTION_RANGE, alpha
-    if vehicle.fins:
-        yield fins.DRAG_RANGE, sigma
-        if hole.model.fin_lift != "none":
-            yield fins.LIFT_RANGE, max(_largest_incidence(fin, hole) for fin in vehicle.fins)
-    planes = hole.model.planing != "none"
-    if planes and tail.area > 0:
-        yield planing.FRICTION_RANGE, tail.Re_w
-    if planes and tail.h > 0:
-        yield planing.CLEARANCE_RANGE, tail.R_prime
-        yield planing.SLOPE_RANGE, tail.alpha_p
-
-
-def _largest_incidence(fin: FinSet, hole: Cavity) -> float:
-    incidence = fins.fin_incidence(hole.theta, fin.deflection, np.array(fin.roll_angles))
-    return float(np.abs(incidence).max())
-
-
-def _warnings(
-    vehicle: Vehicle,
-    hole: Cavity,
-    fin_loads: tuple[FinLoad, ...],
-    tail: Planing,
-    ranges: list[tuple[Range, float]],
-) -> Iterator[str]:
-    outside = (known.warning(value) for known, value in ranges if not known.check(value).inside)
-    yield from dict.fromkeys(outside)
-    if hole.L_c < vehicle.length:
-        yield (
-            f"The cavity closes at x = {hole.L_c:.4g} m, ahead of the tail at "
-            f"{vehicle.length:.4g} m, and the body behind it is taken as wetted all round: "
-            "lower sigma, or take a larger cavitator, if a full cavity was meant."
-        )
-    for number, fin in enumerate(fin_loads, 1):
-        if not any(fin.immersion):
-            yield (
-                f"Fin set {number} at x = {fin.position:.4g} m is inside the cavity altogether and "
-                "gives no force: move it aft, or make its tip_radius larger."
-            )
-    yield from _forebody(vehicle, hole)
-
-
-def _forebody(vehicle: Vehicle, hole: Cavity) -> Iterator[str]:
-    """Warn of a nose outside the cavity, but for the rim of the disk (its radius in length)."""
-    start, end = hole.D_n / 2, min(hole.L_c / 2, vehicle.length)
-    if start >= end:
-        return
-    stations = vehicle.stations.x
-    inner = stations[(stations > start) & (stations < end)]
-    x = np.union1d(np.linspace(start, end, 400), inner)
-    out = np.abs(hole.axis_offset(x)) + vehicle.radius_at(x) - hole.radius(x)
-    if out.max() > 0:
-        worst = x[np.argmax(out)]
-        yield (
-            f"The forebody stands {out.max():.3g} m out of the cavity at x = {worst:.4g} m, where "
-            "no force is counted: make the nose slimmer, or the cavity larger."
-        )

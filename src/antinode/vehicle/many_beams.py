@@ -18,15 +18,12 @@ from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.limits import MOST_BUCKLED, MOST_TENSION
-from antinode.beam.representation import coarsest_steps
+from antinode.beam.mass import mass_within
+from antinode.beam.profile import Profile, interpolated
+from antinode.beam.representation import GAUSS, coarsest_steps, halved
 
-from .case import Case
-from .many_loads import ManyLoads, Numbers
-
-_GAUSS = np.array([0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6])
-_WEIGHTS = np.array([[0.5 + np.sqrt(3) / 3, 0.5 - np.sqrt(3) / 3]])
-_WEIGHTS = np.concatenate([_WEIGHTS, _WEIGHTS[:, ::-1]])
-"""Of the two Gauss points, in the first and in the second half of a step."""
+from .forces import ForceOnBody, drag_ahead
+from .many_loads import ManyLoads
 
 
 @dataclass(frozen=True)
@@ -53,48 +50,35 @@ class ManyBeams:
 
     Attributes
     ----------
-    case : Case
-    numbers : mapping
-        What varies, as in `compute_many_loads`.
     loads : ManyLoads
     """
 
-    case: Case
-    numbers: Numbers
     loads: ManyLoads
 
-    @property
+    @cached_property
     def exact(self) -> bool:
         """Whether nothing varies inside the cells: N is constant there, and the table steps."""
-        constant = self.case.model.axial_force == "element_midpoint"
-        return constant and self.loads.masses.interpolation == "step"
+        constant = self.loads.cases.model.axial_force == "element_midpoint"
+        return constant and self.loads.mass_distribution.interpolation == "step"
 
     @cached_property
     def stiffness(self) -> Array:
-        """EI at both ends of the intervals of the masses, shape (cases or 1, m, 2)."""
-        keys = ("vehicle", "stations", "bending_stiffness")
-        stations, how = self.case.vehicle.stations, self.case.vehicle.interpolation
-        column = self.numbers.get(keys, stations.bending_stiffness[None])
-        before = column[:, :-1]
-        ends = np.stack([before, before if how == "step" else column[:, 1:]], axis=-1)
-        x = self.loads.masses.x
-        k = np.clip(np.searchsorted(stations.x, (x[1:] + x[:-1]) / 2) - 1, 0, len(stations.x) - 2)
-        t = (np.stack([x[:-1], x[1:]], axis=1) - stations.x[k][:, None]) / np.diff(stations.x)[
-            k, None
-        ]
-        a, b = ends[:, k, :1], ends[:, k, 1:]
-        return np.asarray(a * (b / a) ** t if how == "log" else a + (b - a) * t)
+        """EI at both ends of the intervals of the masses, shape (m, 2) or (cases, m, 2)."""
+        cases = self.loads.cases
+        column, how = cases.column("bending_stiffness"), cases.vehicle.interpolation
+        table = Profile.of_rows(cases.vehicle.stations.x, column, how)
+        return table.between(self.loads.mass_distribution.x)
 
     @cached_property
     def cells(self) -> Array:
         """Bounds of the cells [m]: the case's own intervals, the long and steep ones divided."""
-        masses = self.loads.masses
+        masses = self.loads.mass_distribution
         if self.exact:
             return masses.x
         beam = Beam(
             x=masses.x,
-            mass_per_length=masses.ends.mean(axis=0),
-            bending_stiffness=self.stiffness.mean(axis=0),
+            mass_per_length=_mean(masses.ends),
+            bending_stiffness=_mean(self.stiffness),
             axial_acceleration=1.0,
             interpolation=masses.interpolation,
         )
@@ -106,8 +90,8 @@ class ManyBeams:
         """Return the chains of some cases, those with as many segments together."""
         rows = rows[np.argsort(self.order[rows], kind="stable")]
         cells = np.broadcast_to(self.cells, (len(rows), len(self.cells)))
-        places = self.loads.places[rows]
-        if self.case.model.axial_force == "element_midpoint":
+        places = np.stack([f.x for f in self._forces(rows)[1:]], axis=1)
+        if self.loads.cases.model.axial_force == "element_midpoint":
             places = np.full(places.shape, self.cells[-1])
         x = np.sort(np.concatenate([cells, places], axis=1), axis=1)
         real = np.diff(x, axis=1) > 0
@@ -120,21 +104,29 @@ class ManyBeams:
             found.append(self._chains(rows[which], left, right, refinement))
         return found
 
+    def _forces(self, rows: Any) -> list[ForceOnBody[Array]]:
+        """Return the forces on some bodies; those that do not act stand at the tail."""
+        acting = self.loads.hydrodynamics.forces
+        length = self.loads.cases.vehicle.length
+        return [
+            f._replace(x=np.where((f.F_X != 0) | (f.F_Y != 0), f.x, length)[rows], F_X=f.F_X[rows])
+            for f in acting
+        ]
+
     @cached_property
     def order(self) -> Array:
         """What neighbours in a chunk are alike in: N over EI, on average, or the mass."""
-        s = self.loads.scalars
-        N = s["F_CX"] + s["a_X"] * s["mass"] / 2 + self.loads.drags.sum(axis=1) / 2
-        if ("vehicle", "stations", "bending_stiffness") in self.numbers:
-            flexible = np.mean(1 / self.stiffness, axis=(1, 2))
-            heavy = np.broadcast_to(s["mass"], flexible.shape)
-            return np.asarray(heavy * flexible)
-        return np.asarray(N / s["mass"] if self.loads.masses.ends.shape[0] > 1 else N)
+        loads = self.loads
+        drags = sum(f.F_X for f in loads.hydrodynamics.forces[1:])
+        N = loads.F_CX + loads.a_X * loads.mass / 2 + drags / 2
+        if self.stiffness.ndim == 3:
+            return np.asarray(loads.mass * np.mean(1 / self.stiffness, axis=(1, 2)))
+        return np.asarray(N / loads.mass if loads.mass_distribution.ends.ndim == 3 else N)
 
     def _chains(self, rows: Integers, left: Array, right: Array, refinement: int) -> Chains:
         """Divide cells into steps, and steps into weighted halves."""
         middle = (left + right) / 2
-        interval = np.searchsorted(self.loads.masses.x, middle) - 1
+        interval = self.loads.mass_distribution.interval(middle)
         jump = self._jumps(rows, middle)
         if self.exact:
             at = middle[..., None]
@@ -143,52 +135,46 @@ class ManyBeams:
         steps = np.linspace(0, 1, refinement + 1)[:-1]
         size = (right - left)[..., None] / refinement
         start = left[..., None] + (right - left)[..., None] * steps
-        shape = (len(rows), -1, 2)
-        at = (start[..., None] + size[..., None] * _GAUSS).reshape(shape)
+        at = (start[..., None] + size[..., None] * np.array(GAUSS)).reshape(len(rows), -1, 2)
 
         def spread(values: Any) -> Any:
             return np.repeat(values, refinement, axis=1)
 
         m, EI, N = self._at(rows, spread(interval), at, spread(jump))
-        halves = [(v @ _WEIGHTS.T).reshape(len(rows), -1) for v in (m, 1 / EI, N)]
+        halves = [halved(v).reshape(len(rows), -1) for v in (m, 1 / EI, N)]
         length = np.repeat(spread(size[..., 0]) / 2, 2, axis=1)
         return Chains(rows, length, halves[0], 1 / halves[1], halves[2])
 
     def _jumps(self, rows: Integers, middle: Array) -> Array:
         """Return the drag of all forces ahead of the middles of cells, the cavitator's included."""
-        N = np.repeat(self.loads.scalars["F_CX"][rows, None], middle.shape[1], axis=1)
-        for k in range(self.loads.places.shape[1]):
-            x, F = self.loads.places[rows, k, None], self.loads.drags[rows, k, None]
-            N += np.where(middle > x, F, 0.0)
-        return N
+        forces = [f._replace(x=f.x[:, None], F_X=f.F_X[:, None]) for f in self._forces(rows)]
+        return np.asarray(drag_ahead(forces, lambda force: middle > force.x))
 
     def _at(
         self, rows: Integers, interval: Integers, x: Array, jump: Array
     ) -> tuple[Array, Array, Array]:
         """Return m, EI and N at points `x` of intervals, shape (cases, cells, points)."""
-        masses, how = self.loads.masses, self.loads.masses.interpolation
+        masses, how = self.loads.mass_distribution, self.loads.mass_distribution.interpolation
         low = masses.x[interval]
         length = (masses.x[interval + 1] - low)[..., None]
         s = x - low[..., None]
         a, b = (_taken(masses.ends[..., k], rows, interval)[..., None] for k in (0, 1))
         EIa, EIb = (_taken(self.stiffness[..., k], rows, interval)[..., None] for k in (0, 1))
-        ahead = _taken(masses.ahead, rows, interval)[..., None]
-        a_X = self.loads.scalars["a_X"][rows, None, None]
-        if self.case.model.axial_force == "element_midpoint":
-            after = _taken(masses.ahead, rows, interval + 1)[..., None]
-            N = jump[..., None] + a_X * (ahead + after) / 2
-            N = np.broadcast_to(N, x.shape)
+        total = masses.moments_ahead[0]
+        ahead = _taken(total, rows, interval)[..., None]
+        a_X = self.loads.a_X[rows, None, None]
+        if self.loads.cases.model.axial_force == "element_midpoint":
+            after = _taken(total, rows, interval + 1)[..., None]
+            N = np.broadcast_to(jump[..., None] + a_X * (ahead + after) / 2, x.shape)
         else:
-            N = jump[..., None] + a_X * (ahead + _mass_within(s, a, b, length, how))
+            N = jump[..., None] + a_X * (ahead + mass_within(a, b, length, s, how))
         t = s / length
-        if how == "log":
-            return a * (b / a) ** t, EIa * (EIb / EIa) ** t, N
-        return a + (b - a) * t, EIa + (EIb - EIa) * t, N
+        return interpolated(a, b, t, how), interpolated(EIa, EIb, t, how), N
 
     def beyond_limits(self) -> npt.NDArray[np.bool_]:
         """Tell which cases have an axial force out of all proportion to the bending stiffness."""
-        edges, loads = self.loads.masses.x, self.loads
-        rows = np.arange(len(loads.code))
+        edges = self.loads.mass_distribution.x
+        rows = np.arange(self.loads.cases.cases)
         middle = (edges[1:] + edges[:-1])[None] / 2
         interval = np.broadcast_to(np.arange(len(edges) - 1), (len(rows), len(edges) - 1))
         jump = self._jumps(rows, np.repeat(middle, len(rows), axis=0))
@@ -200,17 +186,13 @@ class ManyBeams:
         return np.asarray(~((buckled <= MOST_BUCKLED) & (tension <= MOST_TENSION)))
 
 
+def _mean(ends: Array) -> Array:
+    """Return the mean over the cases, shape (m, 2)."""
+    return np.asarray(ends.mean(axis=0) if ends.ndim == 3 else ends)
+
+
 def _taken(table: Array, rows: Integers, index: Integers) -> Array:
     """Return entries of a table, one row for all cases or one for each."""
-    if len(table) == 1:
-        return np.asarray(table[0][index])
+    if table.ndim == 1:
+        return np.asarray(table[index])
     return np.take_along_axis(table[rows], index, axis=1)
-
-
-def _mass_within(s: Array, a: Array, b: Array, length: Array, how: str) -> Array:
-    """Return the mass of the first `s` metres of intervals."""
-    if how != "log":
-        return np.asarray(a * s + (b - a) / length * s * s / 2)
-    rate = np.log(b / a) * s / length
-    mean = np.where(np.abs(rate) > 1e-12, np.expm1(rate) / np.where(rate == 0, 1, rate), 1.0)
-    return np.asarray(a * s * mean)

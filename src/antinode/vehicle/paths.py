@@ -7,7 +7,7 @@ name: ``fins.0.thickness``, ``thrust``.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, TypeVar, get_args
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 from pydantic import BaseModel
@@ -19,10 +19,9 @@ from antinode.text import nearest, short
 
 from .case import Case
 from .condition import OperatingCondition
+from .numbers import Keys
 from .vehicle import Vehicle
 
-Node = TypeVar("Node")
-Keys = tuple[str | int, ...]
 _FIXED = ("solve",)
 _LISTED = ("radius_of_gyration", "wall")
 
@@ -166,38 +165,3 @@ def _limits(marks: list[Any]) -> tuple[float, float, bool]:
     if any(isinstance(m, Column) for m in marks):
         low.append(0.0)
     return max(low, default=-math.inf), min(high, default=math.inf), strict
-
-
-def value_at(node: Any, keys: Keys) -> float | None:
-    """Return the number that keys lead to; None where the case leaves it out."""
-    for key in keys:
-        node = getattr(node, str(key)) if isinstance(node, BaseModel) else node[key]
-    return None if node is None else float(node)
-
-
-def replaced(node: Node, keys: Keys, value: Any) -> Node:
-    """Return a copy of a tree of models, lists and columns with one value replaced, unchecked."""
-    if not keys:
-        return value  # type: ignore[no-any-return]
-    key, rest = keys[0], keys[1:]
-    if isinstance(node, BaseModel):
-        inner = replaced(getattr(node, str(key)), rest, value)
-        return _copied(node, str(key), inner)  # type: ignore[no-any-return]
-    if isinstance(node, dict):
-        return {**node, key: replaced(node[key], rest, value)}  # type: ignore[return-value]
-    if isinstance(node, np.ndarray):
-        column = node.copy()
-        column[key] = value
-        return column
-    if isinstance(node, tuple):
-        index = int(key)
-        inner = replaced(node[index], rest, value)
-        return (*node[:index], inner, *node[index + 1 :])  # type: ignore[return-value]
-    raise TypeError(f"{key} leads on from a value")
-
-
-def _copied(model: Any, key: str, value: Any) -> Any:
-    """Return a model with one field replaced, and without what it had worked out and kept."""
-    fields = {**model.__dict__, key: value}
-    kept = {name: v for name, v in fields.items() if name in type(model).model_fields}
-    return type(model).model_construct(**kept)

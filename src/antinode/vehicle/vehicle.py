@@ -8,8 +8,9 @@ interpolated ("linear", "log"; the radius is linear in both).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Annotated, Any, Self
 
 import numpy as np
@@ -22,7 +23,9 @@ from pydantic import (
 )
 
 from antinode.arrays import Array, Interpolation
-from antinode.beam.mass import MassDistribution, MassTable, check_on_body
+from antinode.beam.mass import MassDistribution, burnt
+from antinode.beam.parts import MassTable, check_on_body
+from antinode.beam.profile import Profile
 from antinode.inputs.columns import Column, finite, increasing, positive, with_closed_stations
 from antinode.inputs.units import Angle, Frozen, Length, Number
 from antinode.text import counted
@@ -206,14 +209,14 @@ class Vehicle(Frozen):
         """Length L of the body [m]."""
         return float(self.stations.x[-1])
 
+    @cached_property
+    def radius_profile(self) -> Profile:
+        """Radius of the body [m] on the intervals of the stations."""
+        return Profile.of_rows(self.stations.x, self.stations.radius, self._radial)
+
     def radius_at(self, x: ArrayLike) -> Array:
         """Return the radius of the body at `x` [m]; aft of the step where it jumps."""
-        x = np.asarray(x, dtype=float)
-        table = self.stations
-        if self.interpolation == "step":
-            k = np.searchsorted(table.x, x, side="right") - 1
-            return table.radius[np.clip(k, 0, len(table.x) - 2)]
-        return np.asarray(np.interp(x, table.x, table.radius))
+        return self.radius_profile.at(x)
 
     def mass_per_length(self, burn_fraction: float = 0.0) -> Array:
         """Return the column of mass per length at a burn fraction [kg/m].
@@ -223,17 +226,22 @@ class Vehicle(Frozen):
         burn_fraction : float
             0 the first mass state, 1 the last [-]; linear between neighbouring states.
         """
-        states = list(self.stations.mass_per_length.values())
-        place = burn_fraction * (len(states) - 1)
-        k = min(int(place), max(len(states) - 2, 0))
-        following = states[min(k + 1, len(states) - 1)]
-        return states[k] + (place - k) * (following - states[k])
+        return burnt(list(self.stations.mass_per_length.values()), burn_fraction)
 
-    def mass_distribution(self, burn_fraction: float = 0.0) -> MassDistribution:
-        """Return the mass along the axis at a burn fraction, all parts added up."""
-        x = self.stations.x
-        ends = self._ends(self.mass_per_length(burn_fraction), x, self.interpolation)
-        total = MassDistribution(x, ends, self.interpolation)
+    def mass_distribution(
+        self, burn_fraction: float | Array = 0.0, states: Sequence[Array] | None = None
+    ) -> MassDistribution:
+        """Return the mass along the axis at a burn fraction, all parts added up.
+
+        Parameters
+        ----------
+        burn_fraction : float or array (cases,)
+        states : sequence of array (rows,) or (cases, rows), optional
+            Columns in place of the vehicle's own mass states [kg/m].
+        """
+        own = list(self.stations.mass_per_length.values()) if states is None else states
+        column = burnt(own, burn_fraction)
+        total = MassDistribution.of_rows(self.stations.x, column, self.interpolation)
         for part in self.masses:
             total = total + part.distribution(burn_fraction)
         return total
@@ -253,47 +261,23 @@ class Vehicle(Frozen):
         Section
             Mass per length [kg/m], EI [N m^2], EA [N], radii and wall [m], each (n, 2).
         """
-        points, table, how = np.asarray(breakpoints, dtype=float), self.stations, self.interpolation
+        points, table = np.asarray(breakpoints, dtype=float), self.stations
 
-        def ends(column: Array, how: Interpolation = how) -> Array:
-            return self._ends(column, points, how)
+        def ends(column: Array, how: Interpolation = self.interpolation) -> Array:
+            return Profile.of_rows(table.x, column, how).between(points)
 
-        radial: Interpolation = "step" if how == "step" else "linear"
         gyration, wall = table.radius_of_gyration, table.wall
         return Section(
             x=points,
             mass_per_length=self.mass_distribution(burn_fraction).between(points),
             bending_stiffness=ends(table.bending_stiffness),
             axial_stiffness=ends(table.axial_stiffness),
-            radius=ends(table.radius, radial),
-            radius_of_gyration=None if gyration is None else ends(gyration, radial),
-            wall=None if wall is None else ends(wall, radial),
+            radius=self.radius_profile.between(points),
+            radius_of_gyration=None if gyration is None else ends(gyration, self._radial),
+            wall=None if wall is None else ends(wall, self._radial),
         )
 
-    def _ends(self, column: Array, points: Array, how: Interpolation) -> Array:
-        """Values of a column at both ends of the intervals between `points`, (n, 2)."""
-        value = _INTERPOLATE[how]
-        if how == "step":
-            middle = value((points[:-1] + points[1:]) / 2, self.stations.x, column)
-            return np.stack([middle, middle], axis=1)
-        at = value(points, self.stations.x, column)
-        return np.stack([at[:-1], at[1:]], axis=1)
-
-
-def _step(x: Array, xs: Array, column: Array) -> Array:
-    return column[np.searchsorted(xs, x, side="right") - 1]
-
-
-def _linear(x: Array, xs: Array, column: Array) -> Array:
-    return np.asarray(np.interp(x, xs, column))
-
-
-def _log(x: Array, xs: Array, column: Array) -> Array:
-    return np.exp(np.interp(x, xs, np.log(column)))
-
-
-_INTERPOLATE: dict[str, Callable[[Array, Array, Array], Array]] = {
-    "step": _step,
-    "linear": _linear,
-    "log": _log,
-}
+    @property
+    def _radial(self) -> Interpolation:
+        """How radii and walls run: linear where the other columns are logarithmic."""
+        return "step" if self.interpolation == "step" else "linear"

@@ -1,15 +1,24 @@
 """Equations 2-17, each against a number worked out by hand in the comment, and their limits."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from antinode.beam.profile import Profile
 from antinode.vehicle.hydrodynamics import Range, fins, form_cavity, planing_state
 from antinode.vehicle.hydrodynamics import cavitator as disk
 from antinode.vehicle.hydrodynamics import cavity as hole
 from antinode.vehicle.hydrodynamics import planing as tail
+from antinode.vehicle.hydrodynamics.roots import find_roots
+from antinode.vehicle.hydrodynamics.wetted import (
+    WettedSurface,
+    wet_angle,
+    wetted_surface,
+    wetted_width,
+)
 from antinode.vehicle.options import Model
 
 close = pytest.approx
@@ -263,14 +272,14 @@ class TestPlaningFormulas:
 class TestWetAngle:
     def test_equal_circles(self):
         # two circles of one radius, centres a radius apart: crossing at +-60 deg, 240 stand out
-        assert tail.wet_angle(0.2, 0.2, 0.2) == close(math.radians(240), rel=1e-12)
+        assert wet_angle(0.2, 0.2, 0.2) == close(math.radians(240), rel=1e-12)
 
     def test_limits(self):
-        assert tail.wet_angle(0.2, 0.3, 0.05) == 0
-        assert tail.wet_angle(0.2, 0.3, 0.0) == 0
-        assert tail.wet_angle(0.2, 0.1, 0.0) == close(2 * math.pi)
-        assert tail.wet_angle(0.2, 0.0, 0.2) == close(2 * math.pi)
-        assert tail.wet_angle(0.2, 0.1, 5.0) == close(2 * math.pi)
+        assert wet_angle(0.2, 0.3, 0.05) == 0
+        assert wet_angle(0.2, 0.3, 0.0) == 0
+        assert wet_angle(0.2, 0.1, 0.0) == close(2 * math.pi)
+        assert wet_angle(0.2, 0.0, 0.2) == close(2 * math.pi)
+        assert wet_angle(0.2, 0.1, 5.0) == close(2 * math.pi)
 
     def test_against_counting(self):
         random = np.random.default_rng(2)
@@ -278,7 +287,7 @@ class TestWetAngle:
         for _ in range(200):
             R, R_c, e = random.uniform([0.1, 0.0, -0.4], [0.3, 0.5, 0.4])
             share = (np.hypot(R * np.cos(psi) - e, R * np.sin(psi)) > R_c).mean()
-            assert tail.wet_angle(R, R_c, e) == close(2 * math.pi * share, abs=2e-3)
+            assert wet_angle(R, R_c, e) == close(2 * math.pi * share, abs=2e-3)
 
 
 STATIONS = np.array([0.0, 1.5, 4.0, 5.0, 6.0])
@@ -292,8 +301,26 @@ def conical(x):
     return np.interp(x, [0, 1.5, 6], [0.04, 0.19, 0.17])
 
 
-def state(c, radius=stepped, stations=STATIONS, speed=80.0):
-    return planing_state(c, radius, stations, 998.2, speed, 1.002e-3)
+def body(radius):
+    """A radius given as a function, as a profile on the stations."""
+    inner = 1e-12 * np.array([1.0, -1.0])
+    ends = radius(np.stack([STATIONS[:-1], STATIONS[1:]], axis=1) + inner)
+    return Profile(STATIONS, ends, "linear")
+
+
+def alone(c):
+    """One cavity as the only one of many."""
+    numbers = ("D_n", "sigma", "theta", "alpha", "D_c", "L_c", "Fr_L")
+    return replace(c, **{name: np.array([float(getattr(c, name))]) for name in numbers})
+
+
+def wetted(c, radius=stepped):
+    length, area, centroid = wetted_surface(alone(c), body(radius))
+    return WettedSurface(length[0], area[0], centroid[0])
+
+
+def state(c, radius=stepped, speed=80.0):
+    return planing_state(alone(c), body(radius), 998.2, np.array([speed]), 1.002e-3).of(0)
 
 
 class TestWettedSurface:
@@ -305,9 +332,9 @@ class TestWettedSurface:
         c = cavity(sigma, angle=angle, speed=speed)
         start = min(c.L_c / 2, 6.0)
         x = start + (6 - start) * (np.arange(200_000) + 0.5) / 200_000
-        arc = radius(x) * tail.wet_angle(radius(x), c.radius(x), c.axis_offset(x))
+        arc = radius(x) * wet_angle(radius(x), c.radius(x), c.axis_offset(x))
         dx = (6 - start) / 200_000
-        wet = tail.wetted_surface(c, radius, STATIONS)
+        wet = wetted(c, radius)
         assert wet.length == close(dx * np.count_nonzero(arc), abs=4 * dx)
         assert wet.area == close(dx * arc.sum(), abs=1e-6)
         if wet.area > 1e-3:
@@ -321,11 +348,39 @@ class TestWettedSurface:
         p = state(cavity(0.002))
         assert (p.area, p.F_PX, p.x_P) == (0, 0, 6)
 
+    def test_a_surface_does_not_depend_on_those_beside_it(self):
+        sigma = np.linspace(0.006, 0.06, 40)
+        made = cavity(sigma, angle=np.linspace(-0.3, 0.4, 40), speed=np.full(40, 60.0))
+        made = replace(made, theta=np.zeros(40), D_n=np.full(40, 0.08))
+        together = wetted_surface(made, body(conical))
+        for k in range(40):
+            assert wetted(made.of(k), conical) == tuple(v[k] for v in together)
+
     def test_smooth_in_sigma(self):
         # an area that jumped or had kinks of its own would break the differences of a fine grid
         sigma = np.linspace(0.0201, 0.0209, 81)
-        area = np.array([tail.wetted_surface(cavity(s), stepped, STATIONS).area for s in sigma])
+        area = np.array([wetted(cavity(s)).area for s in sigma])
         assert np.abs(np.diff(area, 3)).max() < 1e-3 * np.abs(np.diff(area)).max()
+
+
+class TestRoots:
+    """Of functions as they occur here, and of awkward ones."""
+
+    def test_many_at_once(self):
+        a = np.random.default_rng(3).uniform(0.01, 0.9, 500)
+        low, high = np.zeros(500), np.ones(500)
+        for function, root in (
+            (lambda x: x - a, a),
+            (lambda x: a - x**3, np.cbrt(a)),
+            (lambda x: np.tanh(200 * (x - a)), a),
+            (lambda x: np.sign(x - a) * np.sqrt(np.abs(x - a)), a),
+            (lambda x: np.where(x > a, 1.0, -1e-9), a),
+        ):
+            np.testing.assert_allclose(find_roots(function, low, high), root, rtol=4e-15)
+
+    def test_ends_that_are_roots_and_none_at_all(self):
+        assert find_roots(lambda x: 1 - x, np.zeros(1), np.ones(1)) == [1]
+        assert len(find_roots(lambda x: x, np.zeros(0), np.zeros(0))) == 0
 
 
 class TestPlaningState:
@@ -341,8 +396,8 @@ class TestPlaningState:
         angle = np.array([0.0, 0.4, math.pi, 5.0])
         R = 0.2
         chords = [0, math.dist((R, 0), (R * math.cos(0.4), R * math.sin(0.4))), 2 * R, 2 * R]
-        assert tail.wetted_width(R, angle, "projected") == close(chords)
-        assert tail.wetted_width(R, angle, "arc") == close(R * angle)
+        assert wetted_width(R, angle, "projected") == close(chords)
+        assert wetted_width(R, angle, "arc") == close(R * angle)
         arc, flat = (state(cavity(0.022, planing_area=a)) for a in ("arc", "projected"))
         assert flat.length == arc.length
         assert arc.area / math.pi < flat.area < arc.area

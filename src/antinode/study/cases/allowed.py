@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from antinode.arrays import Array
 from antinode.vehicle.case import Case
-from antinode.vehicle.paths import Keys
+from antinode.vehicle.numbers import Keys
 
 
 def outside_range(case: Case, keys: Keys, values: Array) -> npt.NDArray[np.bool_]:

@@ -13,9 +13,10 @@ from antinode.beam.families import BENDING
 from antinode.beam.limits import check_limits
 from antinode.errors import AntinodeError
 from antinode.study.design.file import LOAD_OUTPUTS
-from antinode.vehicle.case import Case
 from antinode.vehicle.many_beams import Chains, ManyBeams
-from antinode.vehicle.many_loads import OUT_OF_RANGE, compute_many_loads, is_vectorised
+from antinode.vehicle.many_loads import loads_of_many
+from antinode.vehicle.numbers import is_vectorised
+from antinode.vehicle.refusals import OUT_OF_RANGE
 
 from .reasons import BEYOND_LIMITS, NO_BEAM
 from .values import Cases
@@ -52,13 +53,13 @@ def beams_of(cases: Cases) -> CaseBeams:
 
 def _on_arrays(cases: Cases, reason: Integers) -> CaseBeams:
     case = cases.study.case
-    loads = compute_many_loads(case, cases.numbers, len(cases))
-    beams = ManyBeams(case, cases.numbers, loads)
-    reason = np.where(reason == 0, loads.code, reason)
+    loads = loads_of_many(case.many(cases.numbers, len(cases)))
+    beams = ManyBeams(loads)
+    reason = np.where(reason == 0, loads.refusals.code, reason)
     with np.errstate(all="ignore"):
         far = beams.beyond_limits()
     reason = np.where(far & (reason == 0), BEYOND_LIMITS, reason)
-    return CaseBeams(reason, loads.scalars, beams.exact, beams.chains)
+    return CaseBeams(reason, loads.numbers, beams.exact, beams.chains)
 
 
 def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
@@ -75,7 +76,7 @@ def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
             continue
         beams[i] = beam
         for name in LOAD_OUTPUTS:
-            scalars[name][i] = _scalar(case, name)
+            scalars[name][i] = case.loads.numbers[name]
     exact = not any(np.any(b.varies(BENDING)) for b in beams.values())
     return CaseBeams(reason, scalars, exact, lambda rows, fine: _chains_of(beams, rows, fine))
 
@@ -91,10 +92,3 @@ def _chains_of(beams: Mapping[int, Beam], rows: Integers, refinement: int) -> li
         ]
         found.append(Chains(np.array(list(own)), *table))
     return found
-
-
-def _scalar(case: Case, name: str) -> float:
-    loads = case.loads
-    if name == "cavity_length":
-        return loads.cavity.L_c
-    return loads.cavity.D_c if name == "cavity_diameter" else float(getattr(loads, name))

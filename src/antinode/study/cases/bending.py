@@ -16,7 +16,7 @@ from antinode.modes.batch import BeamBatch, solve_many
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.study.design.file import Study
-from antinode.vehicle.derivatives import Modes
+from antinode.vehicle.derivatives import ChainModes
 from antinode.vehicle.many_beams import Chains
 
 from .beams import CaseBeams
@@ -154,7 +154,7 @@ def _shapes(chains: Chains, omega2: Array, reason: Integers, x: Array) -> Array:
     """Return the shapes at places, of unit norm; NaN where there are none."""
     found = np.full((*omega2.shape, len(x)), np.nan)
     for i in np.flatnonzero(~failed(reason)).tolist():
-        found[i] = unit_shapes(Modes(_chain(chains, i), omega2[i]).displacement(x))
+        found[i] = unit_shapes(ChainModes(_chain(chains, i), omega2[i]).displacement(x))
     return found
 
 

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from antinode.arrays import Array
 from antinode.study.design.file import Study
 from antinode.study.design.points import Points
-from antinode.vehicle.many_loads import OUT_OF_RANGE
+from antinode.vehicle.refusals import OUT_OF_RANGE
 
 from .alone import solve_alone
 from .beams import CaseBeams, beams_of

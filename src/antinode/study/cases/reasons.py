@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from antinode.arrays import Integers
 from antinode.modes.batch import REASONS
-from antinode.vehicle.many_loads import CAVITATION, EXTRA_DRAG, FINS, NOT_FINITE, OUT_OF_RANGE
+from antinode.vehicle.refusals import CAVITATION, EXTRA_DRAG, FINS, NOT_FINITE, OUT_OF_RANGE
 
 PAST_BUCKLING, BEYOND_LIMITS, NO_BEAM = 6, 15, 16
 WHY: dict[int, str] = {

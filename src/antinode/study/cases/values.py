@@ -14,7 +14,7 @@ from antinode.study.design.file import Study
 from antinode.study.design.variables import Variable
 from antinode.vehicle.case import Case
 from antinode.vehicle.columns import column_values
-from antinode.vehicle.paths import Keys, replaced, value_at
+from antinode.vehicle.numbers import Keys, replaced, value_at
 
 from .allowed import outside_range
 

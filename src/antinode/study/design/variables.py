@@ -16,7 +16,8 @@ from antinode.text import nearest, short
 from antinode.vehicle.case import Case
 from antinode.vehicle.columns import column_keys, interpolation_matrix
 from antinode.vehicle.condition import OperatingCondition
-from antinode.vehicle.paths import Keys, Place, find_place, value_at
+from antinode.vehicle.numbers import Keys, value_at
+from antinode.vehicle.paths import Place, find_place
 from antinode.vehicle.vehicle import Vehicle
 
 from .file import StudyInput

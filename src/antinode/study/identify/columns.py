@@ -15,7 +15,7 @@ from antinode.arrays import Array
 from antinode.errors import InputError
 from antinode.vehicle.case import Case
 from antinode.vehicle.columns import column_keys, column_values, interpolation_matrix
-from antinode.vehicle.paths import Keys
+from antinode.vehicle.numbers import Keys
 
 from .file import Distribution
 

@@ -17,7 +17,7 @@ from antinode.beam.families import FamilyName
 from antinode.errors import AntinodeError
 from antinode.study.eigenvalues import CaseEigenvalues, eigenvalues_of, hertz, hertz_slope
 from antinode.vehicle.case import Case
-from antinode.vehicle.derivatives import Sensitivity
+from antinode.vehicle.derivatives import EigenvalueDerivatives
 from antinode.vehicle.effects import Effect, by_logarithm, effect_of_number, effect_of_radius
 
 from .observations import Pairing, RowData, pair
@@ -143,7 +143,7 @@ class RowDerivative:
             total[:, entry] += by_entry * effect.slope(sensitivity)
         return total
 
-    def _by_logarithms(self, sensitivity: Sensitivity) -> dict[str, Array]:
+    def _by_logarithms(self, sensitivity: EigenvalueDerivatives) -> dict[str, Array]:
         """Return derivatives by the logarithms of columns, those relative to them included."""
         found: dict[str, Array] = {}
         for item in reversed(self.unknowns.columns):

@@ -20,8 +20,8 @@ from antinode.inputs.explain import validate
 from antinode.text import nearest
 from antinode.vehicle.case import Case
 from antinode.vehicle.condition import OperatingCondition
-from antinode.vehicle.derivatives import Modes
-from antinode.vehicle.paths import replaced
+from antinode.vehicle.derivatives import ChainModes
+from antinode.vehicle.numbers import replaced
 
 from .file import Fit, IdentificationProblem, RowBase, ShapeRow
 
@@ -197,7 +197,7 @@ class Pairing:
     mac: Array
 
 
-def pair(data: FamilyData, modes: Modes) -> Pairing:
+def pair(data: FamilyData, modes: ChainModes) -> Pairing:
     """Pair the observed modes of a row with computed ones."""
     index, mac = data.numbers - 1, np.full(len(data.numbers), np.nan)
     if not data.shapes:
@@ -216,7 +216,7 @@ def pair(data: FamilyData, modes: Modes) -> Pairing:
     return Pairing(index, mac)
 
 
-def _likeness(shape: ShapeRow, modes: Modes) -> Array:
+def _likeness(shape: ShapeRow, modes: ChainModes) -> Array:
     """Return the MAC of an observed shape with every computed mode."""
     u, v = np.array(shape.displacement), modes.displacement(np.array(shape.x))
     return np.asarray((u @ v) ** 2 / ((u @ u) * np.sum(v * v, axis=0)))

@@ -26,7 +26,7 @@ from antinode.modes.backends import for_one
 from antinode.modes.result import ModalResult
 from antinode.modes.solve import solve_one
 from antinode.vehicle.case import Case
-from antinode.vehicle.derivatives import MassChange, Modes, Sensitivity
+from antinode.vehicle.derivatives import ChainModes, EigenvalueDerivatives, MassChange
 from antinode.vehicle.effects import by_logarithm, effects_between
 from antinode.vehicle.paths import find_place
 
@@ -60,18 +60,18 @@ def case_influences(case: Case, result: ModalResult, most: int) -> list[Influenc
     """Return what moves the bending modes 1 ... n of a vehicle, solved before."""
     omega2 = [mode.omega2 for mode in result.family(BENDING) if mode.number][:most]
     chain = result.solutions[BENDING].chain
-    modes = Modes(chain, np.array(omega2), for_one(len(chain.length), len(omega2)))
-    sensitivity = Sensitivity(modes, result.beam, case.loads)
+    modes = ChainModes(chain, np.array(omega2), for_one(len(chain.length), len(omega2)))
+    sensitivity = EigenvalueDerivatives(modes, result.beam, case.loads)
     return [*_of_condition(case, sensitivity), *_of_body(case, sensitivity)]
 
 
-def _relative(sensitivity: Sensitivity, slope: Array) -> Array:
+def _relative(sensitivity: EigenvalueDerivatives, slope: Array) -> Array:
     """Return percent of f for a slope of omega^2 by one percent, times 100 percent."""
     omega2 = sensitivity.modes.omega2
     return np.asarray(np.where(omega2 > 0, slope / (2 * np.abs(omega2)), np.nan))
 
 
-def _of_condition(case: Case, sensitivity: Sensitivity) -> Iterator[Influence]:
+def _of_condition(case: Case, sensitivity: EigenvalueDerivatives) -> Iterator[Influence]:
     for name, key, step, scale, change in _parameters(case):
         place = find_place(case, f"condition.{key}")
         value = getattr(case.condition, key)
@@ -102,7 +102,7 @@ def _parameters(case: Case) -> Iterator[tuple[str, str, float, float, str]]:
         yield "fin position", "fin_position", _STEP * L, L, "1 % of length"
 
 
-def _of_body(case: Case, sensitivity: Sensitivity) -> Iterator[Influence]:
+def _of_body(case: Case, sensitivity: EigenvalueDerivatives) -> Iterator[Influence]:
     loads = case.loads
     yield Influence("thrust", "1 %", _relative(sensitivity, sensitivity.by_thrust * loads.thrust))
     mass = loads.mass_distribution

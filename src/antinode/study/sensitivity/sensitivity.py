@@ -26,9 +26,9 @@ from antinode.study.design.variables import Variable
 from antinode.study.eigenvalues import eigenvalues_of, sufficient_refinement
 from antinode.study.sweep.sweep import sweep
 from antinode.vehicle.case import Case
-from antinode.vehicle.derivatives import Sensitivity
+from antinode.vehicle.derivatives import EigenvalueDerivatives
 from antinode.vehicle.effects import by_logarithm, effect_of_number, effect_of_radius
-from antinode.vehicle.paths import value_at
+from antinode.vehicle.numbers import value_at
 
 from .indices import Indices, sobol_indices
 
@@ -221,7 +221,7 @@ def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]
     return found
 
 
-def _by_input(case: Case, sensitivity: Sensitivity, variable: Variable) -> Array:
+def _by_input(case: Case, sensitivity: EigenvalueDerivatives, variable: Variable) -> Array:
     """Return d(omega^2) of every mode of a family by an input."""
     try:
         return _slope(case, sensitivity, variable)
@@ -229,7 +229,7 @@ def _by_input(case: Case, sensitivity: Sensitivity, variable: Variable) -> Array
         return np.full(len(sensitivity.modes.omega2), np.nan)
 
 
-def _slope(case: Case, sensitivity: Sensitivity, variable: Variable) -> Array:
+def _slope(case: Case, sensitivity: EigenvalueDerivatives, variable: Variable) -> Array:
     if variable.weights is not None:  # of a factor on a column, which is 1 here
         if variable.keys[-1] == "radius":
             return effect_of_radius(case, variable.weights).slope(sensitivity)

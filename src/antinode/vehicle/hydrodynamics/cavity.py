@@ -13,7 +13,7 @@ that makes it one is a model option.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -93,7 +93,7 @@ def rise_by_paper(x_bar: Any, sigma: Any, Fr_L: Any) -> Any:
     Fr_L : array_like
         Froude number of the cavity length [-].
     """
-    return (1 + sigma) * x_bar**3 / (4.5 * Fr_L**2)
+    return (1 + sigma) / (4.5 * Fr_L**2) * x_bar**2 * x_bar
 
 
 def rise_by_buoyancy(x_bar: Any, Fr_L: Any) -> Any:
@@ -129,21 +129,28 @@ def distortion(x_bar: Any, sigma: Any, alpha: Any, R_n: Any) -> Any:
     return drag_coefficient(sigma) * alpha * R_n * (0.46 - sigma + x_bar)
 
 
+_NUMBERS = ("D_n", "sigma", "theta", "alpha", "D_c", "L_c", "Fr_L")
+
+
 @dataclass(frozen=True)
 class Cavity:
-    """A cavity and the course of its axis against the body's.
+    """A cavity and the course of its axis against the body's; or those of many conditions.
+
+    The numbers of many conditions are arrays (cases,); places x may then have leading dimensions.
 
     Parameters
     ----------
-    D_n : float
+    D_n : float or array
         Diameter of the disk [m].
-    sigma : float
+    sigma : float or array
         Cavitation number [-].
-    theta : float
+    theta : float or array
         Angle of the body, nose-up positive [rad].
-    alpha : float
+    alpha : float or array
         Angle of the disk [rad].
-    Fr_L : float
+    D_c, L_c : float or array
+        Largest diameter, and length from the nose to the closure [m].
+    Fr_L : float or array
         Froude number of the cavity length [-].
     body_length : float
         Length of the body [m].
@@ -151,23 +158,24 @@ class Cavity:
         The choices.
     """
 
-    D_n: float
-    sigma: float
-    theta: float
-    alpha: float
-    Fr_L: float
+    D_n: Any
+    sigma: Any
+    theta: Any
+    alpha: Any
+    D_c: Any
+    L_c: Any
+    Fr_L: Any
     body_length: float
     model: Model
 
-    @cached_property
-    def D_c(self) -> float:
-        """Largest diameter [m]."""
-        return float(maximum_diameter(self.D_n, self.sigma))
+    def take(self, rows: Any) -> Cavity:
+        """Return the cavities of some cases."""
+        return replace(self, **{name: getattr(self, name)[rows] for name in _NUMBERS})
 
-    @cached_property
-    def L_c(self) -> float:
-        """Length from the nose to the closure [m]."""
-        return float(cavity_length(self.D_n, self.sigma))
+    def of(self, case: int) -> Cavity:
+        """Return the cavity of one case, its numbers as floats."""
+        numbers: dict[str, Any] = {name: float(getattr(self, name)[case]) for name in _NUMBERS}
+        return replace(self, **numbers)
 
     def radius(self, x: ArrayLike) -> Any:
         """Return the cavity's radius R_c at `x` by eq. 9 [m]; 0 behind the closure."""
@@ -220,12 +228,13 @@ class Cavity:
         return np.minimum(x_bar, self._last_station)
 
     @cached_property
-    def _last_station(self) -> float:
-        thin = 1 + math.sqrt(1 - (self.D_n / self.D_c) ** 2)
-        return thin if self.model.gravity_rise == "buoyancy" else 2.0
+    def _last_station(self) -> Any:
+        if self.model.gravity_rise != "buoyancy":
+            return 2.0
+        return 1 + np.sqrt(1 - (self.D_n / self.D_c) ** 2)
 
     @cached_property
-    def _rise_scale(self) -> float:
+    def _rise_scale(self) -> Any:
         """The length that h_g is made with, times the factor [m]."""
         lengths = {
             "half_cavity": self.L_c / 2,
@@ -250,31 +259,31 @@ class Cavity:
 
 
 def form_cavity(
-    diameter: float,
-    sigma: float,
+    diameter: Any,
+    sigma: Any,
     *,
-    speed: float,
-    gravity: float,
+    speed: Any,
+    gravity: Any,
     body_length: float,
-    body_angle: float = 0.0,
-    cavitator_angle: float = 0.0,
+    body_angle: Any = 0.0,
+    cavitator_angle: Any = 0.0,
     model: Model | None = None,
 ) -> Cavity:
-    """Form the cavity of a disk in a condition.
+    """Form the cavity of a disk in a condition, or in many: arrays of one shape.
 
     Parameters
     ----------
-    diameter : float
+    diameter : array_like
         Diameter D_n of the disk [m].
-    sigma : float
+    sigma : array_like
         Cavitation number [-].
-    speed : float
+    speed : array_like
         V [m/s].
-    gravity : float
+    gravity : array_like
         g [m/s^2].
     body_length : float
         Length of the body [m].
-    body_angle, cavitator_angle : float
+    body_angle, cavitator_angle : array_like
         theta and delta_n [rad].
     model : Model, optional
         The choices.
@@ -284,12 +293,15 @@ def form_cavity(
     Cavity
         The cavity.
     """
+    L_c = cavity_length(diameter, sigma)
     return Cavity(
         D_n=diameter,
         sigma=sigma,
         theta=body_angle,
         alpha=body_angle + cavitator_angle,
-        Fr_L=float(froude_number(speed, gravity, cavity_length(diameter, sigma))),
+        D_c=maximum_diameter(diameter, sigma),
+        L_c=L_c,
+        Fr_L=froude_number(speed, gravity, L_c),
         body_length=body_length,
         model=model or Model(),
     )

@@ -6,9 +6,7 @@
 wet all round: the bracket is 1. h' is at most 2. The force has the direction of the offset: cavity
 axis above body axis wets the belly and pushes up. Drag is positive aft.
 
-The wetted area is where the circle of the body (radius R) stands out of the circle of the cavity
-(radius R_c), aft of the cavity's middle; the forces act at its centroid x_P. Where the wetted area
-is measured across its chord, or the forces act at the tail, are options of the model.
+A_w and its centroid x_P, where the forces act, are those of `wetted.py`.
 
 Source: "Analysis of the Natural Vibration Characteristics of a Supercavitating Underwater Vehicle
 Considering Hydrodynamic Conditions", eq. 16 and 17. Eq. 16 as printed is singular at h' = R';
@@ -18,18 +16,17 @@ here it has the sign with which the bracket runs from 0 to 1.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.profile import Profile
 
 from .cavity import Cavity
 from .validity import Range
-
-Radius = Callable[[Any], Array]
+from .wetted import wetted_surface
 
 FRICTION_RANGE = Range(
     "planing friction, eq. 16",
@@ -172,208 +169,76 @@ def direction(offset: Any, R: Any, width: float) -> Any:
     return np.clip(offset / (width * R), -1, 1) if width > 0 else np.sign(offset)
 
 
-def wet_angle(R: Any, R_c: Any, offset: Any) -> Any:
-    """Angle of the body circle that stands out of the cavity circle [rad], from 0 to 2 pi.
-
-    Parameters
-    ----------
-    R : array_like
-        Radius of the body [m].
-    R_c : array_like
-        Radius of the cavity [m].
-    offset : array_like
-        Distance between the centres, of either sign [m].
-    """
-    d = np.maximum(np.abs(offset), np.finfo(float).tiny / np.finfo(float).eps)
-    cosine = np.clip((R**2 - R_c**2 + d**2) / d, -2 * R, 2 * R) / (2 * R)
-    return 2 * np.arccos(-cosine)
-
-
-def wetted_width(R: Any, angle: Any, area: str) -> Any:
-    """Width of the wetted surface across the body [m].
-
-    Parameters
-    ----------
-    R : array_like
-        Radius of the body [m].
-    angle : array_like
-        Angle of the body circle outside the cavity [rad], from 0 to 2 pi.
-    area : {"arc", "projected"}
-        Along the arc, or its chord, which from half a circle on is the diameter.
-    """
-    if area == "arc":
-        return R * angle
-    return 2 * R * np.sin(np.minimum(angle, math.pi) / 2)
-
-
-@dataclass(frozen=True)
-class WettedSurface:
-    """Wetted part of the body aft of the cavity's middle.
-
-    Parameters
-    ----------
-    length : float
-        Wetted length L_w [m].
-    area : float
-        Wetted area A_w [m^2].
-    centroid : float
-        x of the centroid x_P [m]; the tail if nothing is wet.
-    """
-
-    length: float
-    area: float
-    centroid: float
-
-
-_SAMPLES = 256
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
-_S = (_NODES + 1) / 2
-_T, _DT = _S**2 * (3 - 2 * _S), 3 * _S * (1 - _S) * _WEIGHTS
-"""Gauss nodes and weights on 0...1, drawn to the ends, where the wet angle starts like a root."""
-
-
-def wetted_surface(cavity: Cavity, radius: Radius, stations: Array) -> WettedSurface:
-    """Integrate the wetted surface from the cavity's middle to the tail.
-
-    Parameters
-    ----------
-    cavity : Cavity
-        The cavity.
-    radius : callable
-        Radius of the body at x, both in [m].
-    stations : ndarray
-        Where the radius may jump or kink, from nose to tail [m].
-
-    Returns
-    -------
-    WettedSurface
-        Length, area and centroid.
-    """
-    tail = float(stations[-1])
-    start = cavity.L_c / 2
-    if start >= tail:
-        return WettedSurface(0.0, 0.0, tail)
-    inner = stations[(stations > start) & (stations < tail)]
-    closure = [cavity.L_c] if cavity.L_c < tail else []
-    cuts = np.unique(np.concatenate([[start, tail], inner, closure]))
-    return _integrate(_split_at_contacts(cuts, cavity, radius), cavity, radius, tail)
-
-
-def _integrate(pieces: Array, cavity: Cavity, radius: Radius, tail: float) -> WettedSurface:
-    width = np.diff(pieces)[:, None]
-    x = pieces[:-1, None] + width * _T
-    R = radius(x)
-    angle = wet_angle(R, cavity.radius(x), cavity.axis_offset(x))
-    across = wetted_width(R, angle, cavity.model.planing_area)
-    strips = width * _DT * across
-    area = float(strips.sum())
-    if area <= 0:
-        return WettedSurface(0.0, 0.0, tail)
-    length = float(width[across.any(axis=1)].sum())
-    return WettedSurface(length, area, float((strips * x).sum() / area))
-
-
-def _split_at_contacts(cuts: Array, cavity: Cavity, radius: Radius) -> Array:
-    """Add the points where wetting starts or ends, and where the body leaves the cavity wholly."""
-
-    def outside(x: Array) -> Array:
-        return np.asarray(np.abs(cavity.axis_offset(x)) + radius(x) - cavity.radius(x))
-
-    def around(x: Array) -> Array:
-        gap = np.abs(radius(x) - np.abs(cavity.axis_offset(x))) - cavity.radius(x)
-        return np.asarray(gap)
-
-    count = max(4, -(-_SAMPLES // (len(cuts) - 1)))
-    t = np.clip(np.linspace(0, 1, count + 1), 1e-12, 1 - 1e-12)
-    grid = cuts[:-1, None] + np.diff(cuts)[:, None] * t
-    return np.unique(np.concatenate([cuts, _roots(outside, grid), _roots(around, grid)]))
-
-
-def _roots(function: Callable[[Array], Array], grid: Array) -> Array:
-    """Bisect between neighbours on each row of the grid where the function changes its sign."""
-    positive = function(grid) > 0
-    change = positive[:, :-1] != positive[:, 1:]
-    low, high, sign = grid[:, :-1][change], grid[:, 1:][change], positive[:, :-1][change]
-    for _ in range(50 if low.size else 0):
-        middle = (low + high) / 2
-        left = (function(middle) > 0) == sign
-        low, high = np.where(left, middle, low), np.where(left, high, middle)
-    return np.asarray((low + high) / 2)
-
-
 @dataclass(frozen=True)
 class Planing:
-    """The planing state and its forces.
+    """The planing state and its forces; the numbers of many conditions are arrays (cases,).
 
     Parameters
     ----------
-    F_PX, F_PY : float
+    F_PX, F_PY : float or array
         Drag, positive aft, and lift, positive up [N].
-    x_P : float
+    x_P : float or array
         Where they act [m].
-    h, R_prime : float
+    h, R_prime : float or array
         Immersion h' and clearance R' at the tail [-].
-    alpha_p : float
+    alpha_p : float or array
         Planing angle [rad].
-    length, area : float
+    length, area : float or array
         Wetted length L_w [m] and area A_w [m^2].
-    Re_w : float
+    Re_w : float or array
         Reynolds number of the wetted length [-].
-    all_round : bool
+    all_round : bool or array of bool
         Whether the tail is wetted all round: R' <= 0, or behind the closure.
     """
 
-    F_PX: float
-    F_PY: float
-    x_P: float
-    h: float
-    R_prime: float
-    alpha_p: float
-    length: float
-    area: float
-    Re_w: float
-    all_round: bool
+    F_PX: Any
+    F_PY: Any
+    x_P: Any
+    h: Any
+    R_prime: Any
+    alpha_p: Any
+    length: Any
+    area: Any
+    Re_w: Any
+    all_round: Any
 
-    def without_force(self) -> Planing:
-        """Return the same state with no forces."""
-        return replace(self, F_PX=0.0, F_PY=0.0)
+    def of(self, case: int) -> Planing:
+        """Return the state of one case, its numbers as floats."""
+        return Planing(*(getattr(self, f.name)[case].item() for f in fields(self)))
 
 
-def planing_angle(cavity: Cavity, tail: float) -> float:
-    """Planing angle alpha_p at the tail, or at the closure if that is ahead, by the model [rad].
+def planing_angle(cavity: Cavity, x: Any) -> Any:
+    """Planing angle alpha_p by the model [rad].
 
     Parameters
     ----------
     cavity : Cavity
         The cavity, with its model.
-    tail : float
-        x of the tail [m].
+    x : array_like
+        The tail, or the closure if that is ahead [m].
     """
     if cavity.model.planing_angle == "attitude":
-        return abs(cavity.theta)
-    x = min(tail, cavity.L_c)
-    axis = abs(float(cavity.axis_slope(x)))
-    return axis if cavity.model.planing_angle == "axis" else axis + abs(cavity.radius_slope(x))
+        return np.abs(cavity.theta)
+    axis = np.abs(cavity.axis_slope(x))
+    return axis if cavity.model.planing_angle == "axis" else axis + np.abs(cavity.radius_slope(x))
 
 
 def planing_state(
-    cavity: Cavity, radius: Radius, stations: Array, density: float, speed: float, viscosity: float
+    cavity: Cavity, radius: Profile, density: Array, speed: Array, viscosity: Array
 ) -> Planing:
-    """Work out the planing state and its forces.
+    """Work out the planing state and its forces of many conditions.
 
     Parameters
     ----------
     cavity : Cavity
-        The cavity.
-    radius : callable
-        Radius of the body at x, both in [m].
-    stations : ndarray
-        Where the radius may jump or kink, from nose to tail [m].
-    density : float
+        The cavities, their numbers arrays (cases,).
+    radius : Profile
+        Radius of the body, the same for all [m].
+    density : array
         Density of the water [kg/m^3].
-    speed : float
+    speed : array
         V [m/s].
-    viscosity : float
+    viscosity : array
         Dynamic viscosity [Pa s].
 
     Returns
@@ -381,23 +246,25 @@ def planing_state(
     Planing
         Forces, point of action and what they came from.
     """
-    tail = float(stations[-1])
-    wet = wetted_surface(cavity, radius, stations)
-    x = min(tail, cavity.L_c)
-    R, R_c, offset = float(radius(tail)), float(cavity.radius(x)), float(cavity.axis_offset(x))
-    h, R_prime = float(immersion_ratio(offset, R_c, R)), clearance_ratio(R_c, R)
-    alpha_p, all_round = planing_angle(cavity, tail), cavity.L_c < tail or R_prime <= 0
-    size = planing_force(density, speed, R, h, R_prime, alpha_p, cavity.L_c < tail)
+    model, tail = cavity.model, float(radius.x[-1])
+    wet = wetted_surface(cavity, radius)
+    closed, x = cavity.L_c < tail, np.minimum(tail, cavity.L_c)
+    R, R_c, offset = float(radius.ends[-1, 1]), cavity.radius(x), cavity.axis_offset(x)
+    h, R_prime = immersion_ratio(offset, R_c, R), clearance_ratio(R_c, R)
+    alpha_p = planing_angle(cavity, x)
+    size = planing_force(density, speed, R, h, R_prime, alpha_p, closed)
+    lift = size * direction(offset, R, model.planing_direction_width)
     drag = planing_drag(density, speed, wet.length, wet.area, viscosity)
+    acts, none = model.planing == "paper", np.zeros_like(x)
     return Planing(
-        F_PX=cavity.model.planing_drag_factor * float(drag),
-        F_PY=float(size * direction(offset, R, cavity.model.planing_direction_width)),
-        x_P=wet.centroid if cavity.model.planing_position == "centroid" else tail,
+        F_PX=model.planing_drag_factor * drag if acts else none,
+        F_PY=lift if acts else none,
+        x_P=wet.centroid if model.planing_position == "centroid" else np.full_like(x, tail),
         h=h,
         R_prime=R_prime,
-        alpha_p=float(alpha_p),
+        alpha_p=alpha_p,
         length=wet.length,
         area=wet.area,
-        Re_w=float(reynolds_number(density, speed, wet.length, viscosity)),
-        all_round=all_round,
+        Re_w=reynolds_number(density, speed, wet.length, viscosity),
+        all_round=closed | (R_prime <= 0),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 
 class Validity(NamedTuple):
@@ -43,15 +43,26 @@ class Range:
     source: str
     advice: str
 
+    def is_inside(self, value: Any) -> Any:
+        """Tell whether values, an array or one, are inside."""
+        return (self.low <= value) & (value <= self.high)
+
     def check(self, value: float) -> Validity:
         """Return the range together with a value and the verdict."""
-        inside = self.low <= value <= self.high
+        inside = bool(self.is_inside(value))
         return Validity(self.correlation, self.quantity, value, self.low, self.high, inside)
 
+    @property
+    def message(self) -> str:
+        """The sentence for any value outside: what, allowed, what to do."""
+        return self._sentence(f"{self.quantity} is outside its range")
+
     def warning(self, value: float) -> str:
-        """Return the sentence for a value outside: what, allowed, what to do."""
+        """Return the same sentence with the value."""
+        return self._sentence(f"{self.quantity} = {value:.4g} is outside its range")
+
+    def _sentence(self, what: str) -> str:
         allowed = f"{self.low:g} to {self.high:g}"
         if math.isinf(self.high):
             allowed = f"at least {self.low:g}"
-        what = f"{self.correlation}: {self.quantity} = {value:.4g} is outside its range, {allowed}"
-        return f"{what}: {self.advice}."
+        return f"{self.correlation}: {what}, {allowed}: {self.advice}."

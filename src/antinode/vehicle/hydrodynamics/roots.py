@@ -1,0 +1,59 @@
+"""Roots of many functions at once, each between two places where its sign differs.
+
+Chandrupatla's method: inverse quadratic interpolation where the three latest points allow it, else
+bisection. A root does not depend on which others are looked for beside it.
+
+Source: T. R. Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a
+nonlinear function without using derivatives", Advances in Engineering Software 28 (1997) 145-149.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from antinode.arrays import Array
+
+_MOST_STEPS = 100
+_PRECISION = 2 * np.finfo(float).eps
+
+
+def find_roots(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
+    """Return where a function becomes positive, or stops being so, between two places each.
+
+    Parameters
+    ----------
+    function : callable
+        Values at one place for each root, shape (roots,).
+    low, high : array, shape (roots,)
+        Places of which one has a positive value.
+    """
+    a, b, t = high, low, np.full(len(low), 0.5)
+    f_a, f_b = function(a), function(b)
+    for _ in range(_MOST_STEPS if len(low) else 0):
+        precision = _PRECISION * np.maximum(np.abs(a), np.abs(b))
+        found = np.abs(b - a) <= precision
+        if np.all(found):
+            break
+        x = np.where(found, a, a + t * (b - a))
+        f_x = np.where(found, f_a, function(x))
+        same = (f_x > 0) == (f_a > 0)
+        c, f_c = np.where(same, a, b), np.where(same, f_a, f_b)
+        b, f_b = np.where(same, b, a), np.where(same, f_b, f_a)
+        a, f_a = x, f_x
+        t = _next_fraction(a, b, c, f_a, f_b, f_c, precision)
+    return np.where(np.abs(f_a) <= np.abs(f_b), a, b)
+
+
+def _next_fraction(
+    a: Array, b: Array, c: Array, f_a: Array, f_b: Array, f_c: Array, precision: Array
+) -> Array:
+    """Return where to look between `a` and `b`; `c` is the place that was given up last."""
+    with np.errstate(all="ignore"):  # equal places and values: not smooth, or found already
+        place, value = (a - b) / (c - b), (f_a - f_b) / (f_c - f_b)
+        smooth = (value**2 < place) & ((1 - value) ** 2 < 1 - place)
+        quadratic = f_a / (f_b - f_a) * f_c / (f_b - f_c)
+        quadratic += (c - a) / (b - a) * f_a / (f_c - f_a) * f_b / (f_c - f_b)
+        near = np.minimum(precision / np.abs(b - a), 0.5)
+    return np.where(smooth, np.clip(quadratic, near, 1 - near), 0.5)

@@ -1,0 +1,247 @@
+"""The wetted surface of the afterbody: where the body's circle stands out of the cavity's.
+
+At x the circles have the radii R and R_c and centres ``offset`` apart. The angle of the body
+outside is ``2 arccos(-c)``, ``c = (R^2 - R_c^2 + offset^2) / (2 R abs(offset))`` kept within -1
+and 1. Aft of the cavity's middle A_w is the integral of R times the angle, x_P its centroid, L_w
+the length on which the angle is not zero; across the chord if the model says so.
+
+Many bodies are laid out as one list of pieces, cut at their stations, at the closure, and where
+wetting begins (``abs(offset) + R = R_c``) or goes all round (``abs(R - abs(offset)) = R_c``). Each
+piece takes 16 Gauss points that crowd at its ends, where the angle starts like a square root.
+
+Source: "Analysis of the Natural Vibration Characteristics of a Supercavitating Underwater Vehicle
+Considering Hydrodynamic Conditions", eq. 16, with the area as docs/theory/hydrodynamics.md has it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, reduce
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from antinode.arrays import Array, Integers
+from antinode.beam.profile import Profile
+
+from .cavity import Cavity
+from .roots import find_roots
+
+_SAMPLES, _FEWEST = 256, 8  # places along the body, and on every piece, between which contacts lie
+_BLOCK = 2**15  # numbers that are worked on at a time
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+_S = (_NODES + 1) / 2
+_T, _DT = (_S**2 * (3 - 2 * _S))[:, None], (3 * _S * (1 - _S) * _WEIGHTS)[:, None]
+"""Gauss nodes and weights on 0...1, drawn to the ends."""
+
+
+class WettedSurface(NamedTuple):
+    """Wetted part of the body aft of the cavity's middle, of each case.
+
+    Attributes
+    ----------
+    length, area : array (cases,)
+        L_w [m] and A_w [m^2].
+    centroid : array (cases,)
+        x of the centroid x_P [m]; the tail if nothing is wet.
+    """
+
+    length: Array
+    area: Array
+    centroid: Array
+
+
+def wet_angle(R: Any, R_c: Any, offset: Any) -> Any:
+    """Angle of the body circle that stands out of the cavity circle [rad], from 0 to 2 pi.
+
+    Parameters
+    ----------
+    R : array_like
+        Radius of the body [m].
+    R_c : array_like
+        Radius of the cavity [m].
+    offset : array_like
+        Distance between the centres, of either sign [m].
+    """
+    d = np.maximum(np.abs(offset), np.finfo(float).tiny / np.finfo(float).eps)
+    cosine = np.clip((R**2 - R_c**2 + d**2) / d, -2 * R, 2 * R) / (2 * R)
+    return 2 * np.arccos(-cosine)
+
+
+def wetted_width(R: Any, angle: Any, area: str) -> Any:
+    """Width of the wetted surface across the body [m].
+
+    Parameters
+    ----------
+    R : array_like
+        Radius of the body [m].
+    angle : array_like
+        Angle of the body circle outside the cavity [rad], from 0 to 2 pi.
+    area : {"arc", "projected"}
+        Along the arc, or its chord, which from half a circle on is the diameter.
+    """
+    if area == "arc":
+        return R * angle
+    return 2 * R * np.sin(np.minimum(angle, math.pi) / 2)
+
+
+@dataclass(frozen=True)
+class _Pieces:
+    """Pieces of many bodies in one list, those of each body from the nose aft.
+
+    Attributes
+    ----------
+    case, interval : array of int (pieces,)
+        Whose they are, and between which stations.
+    start, end : array (pieces,)
+        [m].
+    cavities : Cavity
+        Of all cases.
+    body : Profile
+        Radius of the bodies [m].
+    """
+
+    case: Integers
+    interval: Integers
+    start: Array
+    end: Array
+    cavities: Cavity
+    body: Profile
+
+    def take(self, rows: Any) -> _Pieces:
+        """Return some of the pieces, perhaps several times."""
+        case, interval, start, end = self.case, self.interval, self.start, self.end
+        return _Pieces(case[rows], interval[rows], start[rows], end[rows], self.cavities, self.body)
+
+    @cached_property
+    def cavity(self) -> Cavity:
+        """The cavity around every piece."""
+        return self.cavities.take(self.case)
+
+    @cached_property
+    def _line(self) -> tuple[Array, Array, Array]:
+        """The body's radius along every piece: start of its interval, radius there, slope."""
+        x, ends = self.body.x, self.body.ends
+        slope = (ends[:, 1] - ends[:, 0]) / np.diff(x)
+        return x[self.interval], ends[self.interval, 0], slope[self.interval]
+
+    def radius(self, x: Array) -> Array:
+        """Return R at places on every piece, (..., pieces) [m]."""
+        start, radius, slope = self._line
+        return np.asarray(radius + slope * (x - start))
+
+    def circles(self, x: Array) -> tuple[Array, Array, Array]:
+        """Return R, R_c and the distance between the centres at places on every piece [m]."""
+        return self.radius(x), self.cavity.radius(x), np.abs(self.cavity.axis_offset(x))
+
+    @property
+    def width(self) -> Array:
+        """Length of every piece [m]."""
+        return self.end - self.start
+
+
+def _outside(R: Array, R_c: Array, d: Array) -> Array:
+    """Positive where some of the body's circle is outside the cavity's."""
+    return d + R - R_c
+
+
+def _around(R: Array, R_c: Array, d: Array) -> Array:
+    """Positive where the whole of the body's circle is, or has the cavity's within it."""
+    return np.abs(R - d) - R_c
+
+
+def wetted_surface(cavities: Cavity, body: Profile) -> WettedSurface:
+    """Integrate the wetted surfaces from the cavities' middles to the tail.
+
+    Parameters
+    ----------
+    cavities : Cavity
+        The cavities, their numbers arrays (cases,).
+    body : Profile
+        Radius of the body, the same for all cases [m]; linear on every interval.
+    """
+    cases, tail = len(cavities.L_c), float(body.x[-1])
+    pieces = _split_at_contacts(_pieces(cavities, body))
+    middle = pieces.start + pieces.width / 2
+    pieces = pieces.take(_outside(*pieces.circles(middle)) > 0)
+    blocks = [_integrals(pieces.take(block)) for block in _blocks(pieces, len(_T))]
+    integrals = (np.concatenate(each) for each in zip(*blocks, strict=True))
+    length, area, moment = (
+        np.bincount(pieces.case, part, minlength=cases).astype(float)
+        for part in (pieces.width, *integrals)
+    )
+    wet = area > 0
+    centroid = np.where(wet, moment / np.where(wet, area, 1.0), tail)
+    return WettedSurface(np.where(wet, length, 0.0), area, centroid)
+
+
+def _blocks(pieces: _Pieces, points: int) -> list[slice]:
+    """Divide pieces with so many points each into blocks that stay near the processor."""
+    size = max(1, _BLOCK // points)
+    return [slice(k, k + size) for k in range(0, max(1, len(pieces.start)), size)]
+
+
+def _integrals(pieces: _Pieces) -> tuple[Array, Array]:
+    """Return wetted area and its first moment about the nose of every piece."""
+    x = pieces.start + pieces.width * _T
+    R, R_c, d = pieces.circles(x)
+    angle = wet_angle(R, R_c, d)
+    strips = pieces.width * _DT * wetted_width(R, angle, pieces.cavities.model.planing_area)
+    return reduce(np.add, strips), reduce(np.add, strips * x)
+
+
+def _pieces(cavities: Cavity, body: Profile) -> _Pieces:
+    """Cut every body at its stations and at the closure, from the cavity's middle on."""
+    low, high = body.x[:-1, None], body.x[1:, None]
+    closure = cavities.L_c
+    start = np.maximum(low, closure / 2)
+    interval, case = np.nonzero((start < high) & np.isfinite(closure))
+    start, end, closure = start[interval, case], body.x[interval + 1], closure[case]
+    closes = np.flatnonzero((closure > start) & (closure < end))
+    pieces = _Pieces(case, interval, start, end, cavities, body)
+    return _cut(pieces, closes, closure[closes])
+
+
+def _cut(pieces: _Pieces, which: Integers, x: Array) -> _Pieces:
+    """Cut some pieces, perhaps several times, at places within them."""
+    if not len(which):
+        return pieces
+    piece = np.concatenate([np.arange(len(pieces.start)), which])
+    start = np.concatenate([pieces.start, x])
+    order = np.lexsort((start, piece))
+    piece, start = piece[order], start[order]
+    last = np.append(piece[1:] != piece[:-1], True)
+    end = np.where(last, pieces.end[piece], np.append(start[1:], 0.0))
+    case, interval = pieces.case[piece], pieces.interval[piece]
+    return _Pieces(case, interval, start, end, pieces.cavities, pieces.body)
+
+
+def _split_at_contacts(pieces: _Pieces) -> _Pieces:
+    """Cut pieces where wetting starts or ends, and where the body leaves the cavity wholly."""
+    count = max(_FEWEST, -(-_SAMPLES // (len(pieces.body.x) - 1)))
+    t = np.clip(np.linspace(0, 1, count + 1), 1e-12, 1 - 1e-12)[:, None]
+    found = [_brackets(pieces, block, t) for block in _blocks(pieces, len(t))]
+    which, low, high, around = (np.concatenate(each) for each in zip(*found, strict=True))
+    touched = pieces.take(which)
+
+    def gap(x: Array) -> Array:
+        R, R_c, d = touched.circles(x)
+        return np.where(around, _around(R, R_c, d), _outside(R, R_c, d))
+
+    return _cut(pieces, which, find_roots(gap, low, high))
+
+
+def _brackets(pieces: _Pieces, block: slice, t: Array) -> tuple[Integers, Array, Array, Any]:
+    """Return the pieces of a block with contacts, between where, and of which kind they are."""
+    some = pieces.take(block)
+    x = some.start + some.width * t
+    R, R_c, d = some.circles(x)
+    found = []
+    for around, gap in ((False, _outside(R, R_c, d)), (True, _around(R, R_c, d))):
+        positive = gap > 0
+        step, piece = np.nonzero(positive[1:] != positive[:-1])
+        kind = np.full(len(piece), around)
+        found.append((piece + block.start, x[step, piece], x[step + 1, piece], kind))
+    which, low, high, kind = (np.concatenate(each) for each in zip(*found, strict=True))
+    return which, low, high, kind
