@@ -26,8 +26,9 @@ from antinode.riccati.bracket import Sample, narrow
 from antinode.riccati.chain import Chain
 from antinode.riccati.shapes import Energies, energies
 
-from .backends import Backend, BackendName, choose
+from .backends import Backend, BackendName, choose, for_one
 from .refinement import ROUNDING, Refinement, layer_length, varying_segments
+from .result import ModalResult
 from .rigid import rigid_modes
 
 _GROWTH = 4.0
@@ -35,6 +36,7 @@ _LARGEST = 1e9  # times the force that the shortest compressed part would bear b
 _NO_FORCE = 1e-12  # share of the largest |N| below which compression is rounding
 _WIDTH = 1e-11  # of the bracket, relative
 _NEAR = 1e-3  # relative distance of the next chain's factor, mostly
+_EVALUATIONS = 30  # of the chain that solved the modes, of one omega^2 each
 _MOST_SEGMENTS = 200_000
 
 
@@ -117,6 +119,12 @@ def buckling(
                 "segments; give the stations more smoothly, or ask for a larger tolerance"
             )
         refinement *= 2
+
+
+def buckling_of(result: ModalResult) -> Buckling | None:
+    """Find the factor for a beam that a command has solved: a small one by numpy, as its modes."""
+    backend = for_one(result.segments[BENDING], _EVALUATIONS)
+    return buckling(result.beam, result.tolerance, backend=backend)
 
 
 def _buckling(
