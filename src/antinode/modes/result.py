@@ -287,8 +287,8 @@ def _mode_dict(mode: Mode) -> dict[str, Any]:
         else None,
         "shift": null(mode.shift),
         "model_error": mode.model_error,
-        "modal_mass": mode.modal_mass,
-        "residual": mode.residual,
+        "modal_mass": null(mode.modal_mass),
+        "residual": null(mode.residual),
     }
 
 
