@@ -106,7 +106,7 @@ def faults(rows):
             yield f"error {row.error:.2e} above the tolerance", row
         if row.error > row.bound:
             yield f"error {row.error:.2e} above the bound {row.bound:.2e}", row
-        if row.error > SEEN and not 0.1 <= row.estimate / row.error <= 100:
+        if row.error > SEEN and not 0.1 <= row.estimate / row.error <= 1000:
             yield f"estimate over error {row.estimate / row.error:.3g}", row
 
 

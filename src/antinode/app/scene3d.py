@@ -6,6 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from antinode.modes.hertz import hertz
+from antinode.modes.result import null
+
 from .compute import Answer
 from .panels.numbers import short_list
 
@@ -32,7 +35,7 @@ def body_data(answer: Answer, number: int) -> dict[str, Any]:
         "radius": short_list(_radius(answer, x) / beam.length),
         "shape": short_list(shape / (np.max(np.abs(shape)) or 1.0)),
         "number": k + 1,
-        "hertz": float(np.sqrt(omega2) / (2 * np.pi)) if omega2 >= 0 else None,
+        "hertz": null(hertz(omega2)),
         "fins": _fins(answer),
     }
 

@@ -24,7 +24,6 @@ from .panels.forces import forces_data
 from .panels.frequencies import baseline_of, frequencies_data
 from .panels.modes import modes_data
 from .panels.notes import notes_data
-from .panels.numbers import short_list
 from .panels.vehicle import vehicle_data
 from .scene3d import body_data
 from .state import File, History, State, Value, fields_of
@@ -205,9 +204,7 @@ class Session:
 
     def _curve_patch(self, state: State, item: Input, answer: Answer) -> dict[str, Any]:
         omega2 = answer.quick.omega2
-        hertz = [None if w < 0 else (w**0.5) / 6.283185307179586 for w in omega2.tolist()]
-        shown = [None if h is None else short_list([h], 5)[0] for h in hertz]
-        patch: dict[str, Any] = {"cursor": cursor_data(item, shown, state.view.units)}
+        patch: dict[str, Any] = {"cursor": cursor_data(item, omega2, state.view.units)}
         curve = self._curve
         if curve is not None and curve.key == curve_key(state, item):
             patch["curve"] = curve_data(curve, item, state.view.units)

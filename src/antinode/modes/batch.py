@@ -32,8 +32,10 @@ from antinode.riccati.roots import CountingError, Eigenvalue, check_certificate
 from antinode.riccati.shapes import split_for
 
 from .backends import Backend, BackendName, choose
+from .brackets import share_brackets
 from .guesses import guess_omega2
-from .rigid import rigid_modes_of, translates
+from .hertz import error_hz, hertz
+from .rigid import elastic, rigid_modes_of, translates, zeros_of
 
 REASONS = (
     "",
@@ -152,13 +154,12 @@ class BatchResult:
     @property
     def frequencies_hz(self) -> Array:
         """Natural frequencies [Hz], shape (beams, modes); NaN where omega^2 < 0 or unknown."""
-        return _hertz(self.omega2)
+        return hertz(self.omega2)
 
     @property
     def error_hz(self) -> Array:
         """Half-width of the interval of frequency that holds the beam's own [Hz]."""
-        error = np.minimum(self.error_omega2, np.abs(self.omega2))
-        return np.asarray(_hertz(self.omega2) - _hertz(self.omega2 - error))
+        return error_hz(self.omega2, self.error_omega2)
 
     def why(self, beam: int) -> str:
         """Return why a beam has NaN among its frequencies; empty if it has none."""
@@ -166,11 +167,6 @@ class BatchResult:
 
     def __len__(self) -> int:
         return len(self.omega2)
-
-
-def _hertz(omega2: Array) -> Array:
-    known = np.where(omega2 >= 0, omega2, np.nan)
-    return np.asarray(np.sqrt(known) / (2 * np.pi))
 
 
 def solve_many(batch: BeamBatch, *, backend: BackendName = "auto") -> BatchResult:
@@ -203,7 +199,8 @@ def solve_many(batch: BeamBatch, *, backend: BackendName = "auto") -> BatchResul
     low = np.subtract(low, rounding, out=bracket[..., 0])
     high = np.add(high, rounding, out=bracket[..., 1])
     if (low[:, 1:] <= high[:, :-1]).any():
-        _share(low, high, counts)
+        for row in np.flatnonzero(np.any(low[:, 1:] <= high[:, :-1], axis=1)):
+            share_brackets(low[row], high[row], counts[row])
     reason[omega2[:, 0] < 0] = PAST_BUCKLING
     error = np.maximum(high - omega2, omega2 - low)
     return BatchResult(omega2, bracket, counts, error, reason, evaluations)
@@ -249,14 +246,12 @@ def _alone(solver: Backend, batch: BeamBatch, row: int, results: ChainRoots) -> 
     below, chain = rigid_modes_of(batch.ends), _chains(batch)[row]
     if not _is_valid(chain):
         return INVALID
-    zeros = below if not np.any(chain.axial_force) else int(translates(batch.ends))
+    zeros = zeros_of(batch.ends, chain.axial_force)
     try:
         found = solver.find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
         if not check_certificate(found):
             return NOT_BRACKETED
-        others = [value for value in found if value.omega2 != 0.0]
-        moved = below - (len(found) - len(others))  # the rigid modes that N moves off zero
-        wanted = others[moved : moved + batch.modes]
+        wanted = elastic(found, below)[: batch.modes]
         rounding = _rounding_by_shapes(solver, chain, wanted)
     except FloatingPointError:
         return OUT_OF_REACH
@@ -282,12 +277,3 @@ def _rounding_by_shapes(solver: Backend, chain: Chain, found: list[Eigenvalue]) 
     fine = split_for(chain, omega2)
     energies = solver.mode_energies(fine, solver.mode_states(fine, omega2, together), omega2)
     return np.asarray(_ROUNDING * energies.size / energies.mass)
-
-
-def _share(low: Array, high: Array, counts: Integers) -> None:
-    """Let neighbouring modes share a bracket where rounding makes theirs overlap."""
-    for row in np.flatnonzero(np.any(low[:, 1:] <= high[:, :-1], axis=1)):
-        edges = np.flatnonzero(low[row, 1:] > np.maximum.accumulate(high[row])[:-1]) + 1
-        for group in np.split(np.arange(low.shape[1]), edges):
-            low[row, group], high[row, group] = low[row, group].min(), high[row, group].max()
-            counts[row, group] = counts[row, group, 0].min(), counts[row, group, 1].max()

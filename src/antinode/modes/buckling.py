@@ -1,14 +1,19 @@
 """Buckling: the factor on the axial force at which the first supported mode starts to diverge.
 
 With end forces of fixed direction a beam loses stability where an eigenvalue omega^2 passes through
-zero, so the same counts that certify frequencies find and bracket the critical load. Rigid motions
-are no buckling: a free beam's rotation, which diverges under any net compression, is left out. In
-net tension nothing diverges at first, and any mode that does has buckled.
+zero, so the same counts that certify frequencies find and bracket the critical load: they are taken
+at omega^2 = 0, as a function of the factor. Rigid motions are no buckling. A translation costs
+nothing under any load, and is held at the left end. A free beam's rotation, which diverges under
+any net compression, is left out; in net tension nothing diverges at first, and any mode that does
+has buckled. Beside these the least eigenvalue is a concave function of the factor: what has
+diverged stays so, and the count rises once.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,12 +22,22 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import ComputationError
-from antinode.riccati.chain import Chain, count_below, omega2_scale
+from antinode.riccati.bracket import Sample, narrow
+from antinode.riccati.chain import Chain
+from antinode.riccati.shapes import Energies, energies
 
+from .backends import Backend, BackendName, choose, for_one
+from .refinement import ROUNDING, Refinement, layer_length, varying_segments
+from .result import ModalResult
 from .rigid import rigid_modes
 
-_GROWTH = 1.15
-_LARGEST = 1e9  # factor on the force of the shortest clamped interval, beyond which none buckles
+_GROWTH = 4.0
+_LARGEST = 1e9  # times the force that the shortest compressed part would bear by itself
+_NO_FORCE = 1e-12  # share of the largest |N| below which compression is rounding
+_WIDTH = 1e-11  # of the bracket, relative
+_NEAR = 1e-3  # relative distance of the next chain's factor, mostly
+_EVALUATIONS = 30  # of the chain that solved the modes, of one omega^2 each
+_MOST_SEGMENTS = 200_000
 
 
 @dataclass(frozen=True)
@@ -34,7 +49,8 @@ class Buckling:
     load_factor : float
         Factor on the whole axial force at which the first supported mode diverges.
     bracket : tuple of float
-        Load factors with no divergent supported mode, and with one, on the segment chain.
+        Load factors with no divergent supported mode, and with one, on the finest segment chain;
+        it reaches to `load_factor` where that is extrapolated beyond it.
     error : float
         Bound on the distance to the load factor of the beam as given.
     """
@@ -53,7 +69,9 @@ class Buckling:
 
 
 @out_of_range_is_an_error()
-def buckling(beam: Beam, tolerance: float = 1e-6) -> Buckling | None:
+def buckling(
+    beam: Beam, tolerance: float = 1e-6, *, backend: BackendName = "auto"
+) -> Buckling | None:
     """Find the load factor at which the first supported bending mode diverges.
 
     Parameters
@@ -62,6 +80,8 @@ def buckling(beam: Beam, tolerance: float = 1e-6) -> Buckling | None:
         Under the axial force that is to be multiplied.
     tolerance : float
         Largest relative error by what varies inside segments.
+    backend : {"auto", "numpy", "numba"}
+        What evaluates chains; "auto" is numba.
 
     Returns
     -------
@@ -74,75 +94,145 @@ def buckling(beam: Beam, tolerance: float = 1e-6) -> Buckling | None:
     ComputationError
         If the tolerance is out of reach.
     """
-    rotations = int("rotation" in rigid_modes(beam, BENDING))
-    refinement = 1
-    found = _critical(beam.chain(BENDING, refinement), rotations)
-    if found is None or not np.any(beam.varies(BENDING)):
-        return None if found is None else _buckling(found, 0.0)
-    while refinement < 256:
-        refinement *= 2
-        coarse, found = found, _critical(beam.chain(BENDING, refinement), rotations)
-        if found is None:
-            break
-        error = abs(sum(found) - sum(coarse)) / 2 / 8
-        if error <= tolerance * found[0]:
-            return _buckling(found, error)
-    raise ComputationError("the critical load did not converge; give the stations more smoothly")
-
-
-def _buckling(bracket: tuple[float, float], error: float) -> Buckling:
-    low, high = float(bracket[0]), float(bracket[1])
-    return Buckling((low + high) / 2, (low, high), float(error) + (high - low) / 2)
-
-
-def _critical(chain: Chain, rotations: int) -> tuple[float, float] | None:
-    """Bracket the load factor at which more eigenvalues are negative than rigid rotations."""
-    low, most = _range_of_factors(chain)
-    if not low < np.inf:
+    beam = beam.with_breakpoints(_zeros_of_force(beam))
+    solver, rigid = choose(backend), rigid_modes(beam, BENDING)
+    factors = _range_of_factors(beam)
+    if factors is None:
         return None
-    allowed = min(rotations, _diverge(chain, low))
-    while _diverge(chain, low) > allowed:
+    varies = bool(np.any(beam.varies(BENDING)))
+    levels, refinement, guess = Refinement(tolerance / 2, coarse=_WIDTH), 1, None
+    while True:
+        chain = _held(beam.chain(BENDING, refinement), "translation" in rigid)
+        found = _critical(solver, chain, int("rotation" in rigid), *factors, guess)
+        if found is None and (not varies or refinement > 16):
+            return None
+        if found is not None:
+            guess = found[2]
+            loaded = _loaded(chain, guess)
+            levels.add(np.array([guess]), layer_length(loaded, varying_segments(beam, chain)))
+            if not varies or levels.met(levels.error):
+                error = float(levels.error[0]) if varies else 0.0
+                return _buckling(solver, loaded, found, float(levels.better[0]), error)
+        if 2 * len(chain.length) > _MOST_SEGMENTS:
+            raise ComputationError(
+                f"the critical load did not converge to {tolerance:g} on {len(chain.length)} "
+                "segments; give the stations more smoothly, or ask for a larger tolerance"
+            )
+        refinement *= 2
+
+
+def buckling_of(result: ModalResult) -> Buckling | None:
+    """Find the factor for a beam that a command has solved: a small one by numpy, as its modes."""
+    backend = for_one(result.segments[BENDING], _EVALUATIONS)
+    return buckling(result.beam, result.tolerance, backend=backend)
+
+
+def _buckling(
+    solver: Backend, loaded: Chain, bracket: tuple[float, float, float], value: float, error: float
+) -> Buckling:
+    """Report a factor; the bracket is that of the chain, and reaches to the extrapolated value."""
+    low, high, root = bracket
+    half, rounding = max(high - root, root - low), value * _rounding(solver, loaded)
+    low, high = min(low, value), max(high, value)
+    return Buckling(value, (low, high), error + half + rounding)
+
+
+def _rounding(solver: Backend, loaded: Chain) -> float:
+    """Return the relative rounding of a critical factor: small against the energies that make it.
+
+    The factor is the strain over the work of the forces, which may cancel in part.
+    """
+    zero, one = np.zeros(1), np.ones(1, dtype=np.int64)
+    states = solver.mode_states(loaded, zero, one)
+    own: Energies = solver.mode_energies(loaded, states, zero)
+    strain = energies(_loaded(loaded, 0.0), states, own.squares).stiffness
+    return float(ROUNDING * own.size[0] / strain[0])
+
+
+def _zeros_of_force(beam: Beam) -> list[float]:
+    """Return where the tabulated axial force changes its sign inside intervals [m].
+
+    Under an acceleration the force is no straight line, and found on a grid.
+    """
+    k = np.arange(len(beam.x) - 1)
+    t = np.linspace(0.0, 1.0, 2 if beam.axial_acceleration == 0.0 else 33)
+    N = np.stack([beam.axial_force_at(k, np.full(len(k), share)) for share in t], axis=1)
+    interval, i = np.nonzero(N[:, :-1] * N[:, 1:] < 0)
+    a, b = N[interval, i], N[interval, i + 1]
+    share = t[i] + (t[i + 1] - t[i]) * a / (a - b)
+    return list((beam.x[interval] + share * np.diff(beam.x)[interval]).tolist())
+
+
+def _range_of_factors(beam: Beam) -> tuple[float, float] | None:
+    """Return a factor below most that buckle, and one above all; None if nothing can.
+
+    N/EI of the most compressed place makes the scale, and the arm of a mass whose own weight turns
+    it over, against the stiffness of the softest place.
+    """
+    k = np.arange(len(beam.x) - 1)
+    N = np.stack([beam.axial_force_at(k, np.full(len(k), t)) for t in np.linspace(0, 1, 33)])
+    compressed = _NO_FORCE * np.max(np.abs(N)) < N
+    _, _, points = beam.points(BENDING)
+    turning = max((-p.own_load * p.offset for p in points), default=0.0)
+    if not np.any(compressed) and turning <= 0:
+        return None
+    soft = np.min(beam.bending_stiffness, axis=1)
+    scales, shortest = [], beam.length
+    if np.any(compressed):
+        largest = float(np.max(np.where(compressed, N, 0.0) / soft))
+        shortest = float(np.min(np.diff(beam.x)[np.any(compressed, axis=0)]))
+        scales.append(1 / (largest * beam.length**2))
+    if turning > 0:
+        scales.append(float(np.min(soft)) / (turning * beam.length))
+    low, most = 1e-3 * min(scales), _LARGEST * max(scales) * (beam.length / shortest) ** 2
+    if not (low > 0 and most < np.inf):
+        raise OverflowError("the axial force is out of proportion to the bending stiffness")
+    return low, most
+
+
+def _held(chain: Chain, translates: bool) -> Chain:
+    """Return the chain with Y held at its left end if nothing else holds it."""
+    return replace(chain, left=chain.law.end_holding(chain.left, (0,))) if translates else chain
+
+
+def _loaded(chain: Chain, factor: float) -> Chain:
+    """Return the chain under `factor` times its axial force."""
+    points = tuple(replace(p, own_load=factor * p.own_load) for p in chain.points)
+    return replace(chain.with_columns(axial_force=factor * chain.axial_force), points=points)
+
+
+def _statics(solver: Backend, chain: Chain, factor: float) -> Sample:
+    """Return how many eigenvalues are negative under a factor, and the determinant."""
+    found = solver.evaluate(_loaded(chain, factor), [0.0])
+    return int(found.below[0]), float(found.characteristic[0])
+
+
+def _critical(
+    solver: Backend, chain: Chain, rotations: int, low: float, most: float, guess: float | None
+) -> tuple[float, float, float] | None:
+    """Bracket the load factor at which more eigenvalues are negative than rigid rotations."""
+    statics = partial(_statics, solver, chain)
+    allowed = min(rotations, statics(low)[0])
+    while statics(low)[0] > allowed:
         low /= 1e3
         if low == 0:
             raise ComputationError(
                 "the beam diverges under any share of its axial force; check the unit of its forces"
             )
-        allowed = min(rotations, _diverge(chain, low))
-    high = low * _GROWTH
-    while _diverge(chain, high) <= allowed:
-        low, high = high, high * _GROWTH
+        allowed = min(rotations, statics(low)[0])
+    if guess is not None and statics(guess * (1 - _NEAR))[0] <= allowed:
+        low = guess * (1 - _NEAR)
+    high = _beyond(statics, allowed, low if guess is None else guess * (1 + _NEAR), most)
+    return None if high is None else narrow(statics, allowed, low, high, _WIDTH)
+
+
+def _beyond(
+    statics: Callable[[float], Sample], allowed: int, start: float, most: float
+) -> float | None:
+    """Return a factor under which more diverge than is allowed; None if there is none."""
+    high = start
+    while statics(high)[0] <= allowed:
+        high *= _GROWTH
         if high > most:
             return None
-    while high - low > 1e-11 * high:
-        middle = (low + high) / 2
-        low, high = (low, middle) if _diverge(chain, middle) > allowed else (middle, high)
-    return low, high
-
-
-def _range_of_factors(chain: Chain) -> tuple[float, float]:
-    """Return a factor below all that buckle, and one above; infinite if nothing can.
-
-    N/EI of the most compressed segment makes the scale, and the arm of a mass whose own weight
-    turns it over, against the stiffness of the softest segment.
-    """
-    L = float(chain.nodes[-1])
-    largest = float(np.max(chain.axial_force / chain.stiffness))
-    turning = max((-p.own_load * p.offset for p in chain.points), default=0.0)
-    if largest <= 0 and turning <= 0:
-        return np.inf, np.inf
-    low = np.inf if largest <= 0 else 1e-3 / (largest * L**2)
-    most = 0.0 if largest <= 0 else _LARGEST / (largest * float(np.min(chain.length)) ** 2)
-    if turning > 0:
-        low = min(low, 1e-3 * float(np.min(chain.stiffness)) / (turning * L))
-        stiffest = float(np.max(chain.stiffness)) / float(np.min(chain.length))
-        most = max(most, _LARGEST * stiffest / turning)
-    if not (np.isfinite(low) and np.isfinite(most) and low > 0):
-        raise OverflowError("the axial force is out of proportion to the bending stiffness")
-    return low, most
-
-
-def _diverge(chain: Chain, factor: float) -> int:
-    """Return how many eigenvalues are negative under `factor` times the axial force."""
-    points = tuple(replace(p, own_load=factor * p.own_load) for p in chain.points)
-    loaded = replace(chain.with_columns(axial_force=factor * chain.axial_force), points=points)
-    return int(count_below(loaded, [-1e-13 * omega2_scale(chain)])[0])
+    return high

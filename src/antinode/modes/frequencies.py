@@ -25,7 +25,8 @@ from antinode.riccati.points import Point
 from antinode.riccati.reasons import CERTIFIED
 
 from .backends import Backend, BackendName, choose
-from .result import hertz
+from .brackets import share_brackets
+from .hertz import error_hz, hertz
 from .rigid import rigid_modes, rigid_modes_of
 from .solve import HasBeam, solve_modes
 
@@ -46,9 +47,10 @@ class Frequencies:
         Distance to the eigenvalue of the beam as given [rad^2/s^2]: that to the bracket's end,
         which is certain, and the estimated error of representing what varies by uniform segments.
     bracket_omega2 : array, shape (modes, 2)
-        Encloses the eigenvalue of the finest segment chain, rounding included [rad^2/s^2].
+        Encloses the eigenvalue of the finest segment chain, rounding included, and reaches to
+        `omega2` where that is extrapolated beyond it [rad^2/s^2].
     counts : array of int, shape (modes, 2)
-        Number of eigenvalues, rigid ones included, below either end of the bracket.
+        Number of eigenvalues of the chain, rigid ones included, below either end of the bracket.
     segments : int
         Of the finest chain.
     """
@@ -62,13 +64,12 @@ class Frequencies:
     @property
     def frequencies_hz(self) -> Array:
         """Natural frequencies [Hz], shape (modes,); NaN where omega^2 < 0."""
-        return np.array([hertz(value) for value in self.omega2.tolist()])
+        return hertz(self.omega2)
 
     @property
     def error_hz(self) -> Array:
         """Half-width of the interval of frequency that holds the beam's own [Hz]."""
-        lower = self.omega2 - np.minimum(self.error_omega2, np.abs(self.omega2))
-        return self.frequencies_hz - [hertz(value) for value in lower.tolist()]
+        return error_hz(self.omega2, self.error_omega2)
 
 
 def natural_frequencies(
@@ -154,7 +155,13 @@ def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Freq
         return None
     if found.omega2[0] < 0 and "translation" in rigid_modes(beam, BENDING):
         return None  # its omega^2 = 0 lies above an elastic mode: indices do not tell them apart
-    return Frequencies(found.omega2, found.error, found.bracket, found.counts, found.segments)
+    low = np.minimum(found.bracket[:, 0], found.omega2)
+    high = np.maximum(found.bracket[:, 1], found.omega2)
+    counts = found.counts.copy()
+    share_brackets(low, high, counts)
+    return Frequencies(
+        found.omega2, found.error, np.stack([low, high], axis=1), counts, found.segments
+    )
 
 
 @out_of_range_is_an_error()

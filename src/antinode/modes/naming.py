@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.riccati.roots import Eigenvalue
 
+from .brackets import share_brackets
 from .result import Mode
 from .rigid import exact_zeros, rigid_modes
 
@@ -33,18 +36,14 @@ def name_modes(
 
 
 def with_joint_brackets(modes: list[Mode]) -> list[Mode]:
-    """Let modes share a bracket where rounding cannot part them."""
-    groups: list[list[Mode]] = []
-    for mode in modes:
-        if groups and mode.bracket_omega2[0] <= max(m.bracket_omega2[1] for m in groups[-1]):
-            groups[-1].append(mode)
-        else:
-            groups.append([mode])
-    return [mode for group in groups for mode in (_sharing(group) if group[1:] else group)]
-
-
-def _sharing(group: list[Mode]) -> list[Mode]:
-    low, high = zip(*(mode.bracket_omega2 for mode in group), strict=True)
-    below, above = zip(*(mode.counts for mode in group), strict=True)
-    bracket, counts = (min(low), max(high)), (min(below), max(above))
-    return [replace(mode, bracket_omega2=bracket, counts=counts) for mode in group]
+    """Let ascending modes share a bracket where rounding cannot part them."""
+    if not modes:
+        return modes
+    low, high = (np.array(side) for side in zip(*(m.bracket_omega2 for m in modes), strict=True))
+    counts = np.array([mode.counts for mode in modes])
+    share_brackets(low, high, counts)
+    rows = zip(low.tolist(), high.tolist(), counts.tolist(), strict=True)
+    return [
+        replace(mode, bracket_omega2=(a, b), counts=(below, above))
+        for mode, (a, b, (below, above)) in zip(modes, rows, strict=True)
+    ]

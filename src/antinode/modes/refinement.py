@@ -1,8 +1,14 @@
-"""Refinement: chains halved until the estimated error of every frequency meets the tolerance."""
+"""Refinement: chains with steps halved until the error of every frequency meets the tolerance.
+
+One error rule (`riccati.convergence`) judges every number that is found so. Reported is the
+eigenvalue of the finest chain, whose bracket and shape belong to it; its error is its distance from
+the extrapolated value, and the error of that.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -10,23 +16,102 @@ from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.riccati.chain import Chain, omega2_scale
+from antinode.riccati.convergence import extrapolate, within
 from antinode.riccati.roots import Eigenvalue
 
 from .rigid import exact_zeros, rigid_modes
 from .solvers import Solver
 
 ROUNDING = 64 * np.finfo(float).eps  # times the conditioning of an eigenvalue
+NEAR_ZERO = 1e-9  # of the chain's own omega^2: what lies below is as good as zero
 _MOST_SEGMENTS = 100_000
 _MOST_WORK = 250_000  # segments times modes, some seconds
 _LEAST_PER_MODE = 8  # segments that are never too many
 _MODES_PER_REFINEMENT = 8  # that the coarsest steps are meant for
-_MOST_DOUBTS = 5  # representations after which a strange order of convergence is accepted
-_SAFETY = 2.5  # estimate over likely error
-_ACCIDENT = 1 / 1024  # share of the last change but one that an estimate keeps
 _LIKELY = 1e-9  # least relative distance of samples from where an eigenvalue is expected
 _BESIDE = np.array([-4.0, -1.0, 1.0, 4.0])
-_LAYER = 0.1  # N h^2/EI up to which two representations are enough where N alone varies
-_NEAR_ZERO = 1e-9  # of the chain's own omega^2
+_FEW = 0.1  # N h^2/EI of the coarsest steps up to which two levels do where N alone varies
+
+
+@dataclass
+class Refinement:
+    """Levels of chains whose steps are halved each time, and what they tell of their limit.
+
+    Parameters
+    ----------
+    tolerance : float
+        Relative error of a frequency.
+    few : bool
+        Whether two levels are enough: N alone varies, and no layer is narrower than a step.
+    coarse : float
+        Relative width to a tenth of which values are known.
+    least : float
+        What values near zero are measured by.
+    """
+
+    tolerance: float
+    few: bool = False
+    coarse: float = 1e-10
+    least: float = 0.0
+    levels: list[Array] = field(default_factory=list)
+    better: Array = field(default_factory=lambda: np.zeros(0))
+    """Extrapolated values."""
+    error: Array = field(default_factory=lambda: np.zeros(0))
+    """Of the extrapolated values; infinite while too few levels are known."""
+
+    def add(self, values: Array, layer: float) -> None:
+        """Take what the next finer chain gives, and its `layer_length`."""
+        self.levels.append(np.asarray(values, dtype=float))
+        self.better, self.error = self.levels[-1], np.full(len(values), np.inf)
+        common = min(map(len, self.levels[-4:]))
+        rows = np.array([level[:common] for level in self.levels[-4:]])
+        if len(rows) > (1 if self.few else 2):
+            better, error = np.empty(common), np.empty(common)
+            extrapolate(rows, len(rows) - 1, self.coarse, layer, better, error)
+            self.better = np.append(better, self.levels[-1][common:])
+            self.error = np.append(error, np.full(len(values) - common, np.max(error)))
+
+    @property
+    def error_of_last(self) -> Array:
+        """Error of the values of the finest chain as they stand."""
+        return np.asarray(np.abs(self.better - self.levels[-1]) + self.error)
+
+    @property
+    def expected(self) -> Array | None:
+        """Places beside the next values, if the error keeps falling as the fourth power."""
+        if len(self.levels) < 2 or len(self.levels[-1]) != len(self.levels[-2]):
+            return None
+        last = self.levels[-1]
+        change = last - self.levels[-2]
+        spread = np.maximum(np.abs(change) / 64, _LIKELY * np.abs(last))
+        return np.unique(last + change / 16 + spread * _BESIDE[:, None])
+
+    def met(self, error: Array) -> bool:
+        """Tell whether errors of the last values are all within the tolerance."""
+        return bool(within(self.levels[-1], error, self.tolerance, self.least))
+
+    def relative(self, error: Array) -> float:
+        """Return the largest error of a frequency relative to it."""
+        size = np.maximum(np.abs(self.levels[-1]), self.least)
+        return float(np.max(error / (2 * size)))
+
+
+def layer_length(chain: Chain, varies: Array | None = None) -> float:
+    """Return the largest |N| h^2/EI of the segments; 0 in a family without axial force.
+
+    `varies` says for each whether it stands for something that varies; others are exact.
+    """
+    if not chain.law.has_axial_force:
+        return 0.0
+    length = np.abs(chain.axial_force) * chain.length**2 / chain.stiffness
+    return float(np.max(length if varies is None else np.where(varies, length, 0.0)))
+
+
+def varying_segments(beam: Beam, chain: Chain) -> Array:
+    """Tell for each segment of a beam's chain whether its interval varies."""
+    middle = beam.x[0] + (chain.nodes[1:] + chain.nodes[:-1]) / 2
+    interval = np.clip(np.searchsorted(beam.x, middle) - 1, 0, len(beam.x) - 2)
+    return np.asarray(beam.varies(chain.law.name)[interval])
 
 
 @dataclass(frozen=True)
@@ -43,41 +128,21 @@ class Solved:
 def solve_family(
     beam: Beam, family: FamilyName, modes: int, tolerance: float, solver: Solver
 ) -> Solved:
-    """Refine until the estimated error of every wanted frequency is within the tolerance.
-
-    Two representations give an estimate. Where m or EI vary, the coarsest may be too coarse for
-    the error to fall as the fourth power of the steps: further ones must confirm that it does.
-    """
+    """Refine until the estimated error of every wanted frequency is within the tolerance."""
     wanted = modes + len(rigid_modes(beam, family))
     zeros = exact_zeros(beam, family)
-    smooth = not np.any(beam.without_axial_force().varies(family))
     most = max(min(_MOST_SEGMENTS, _MOST_WORK // wanted), _LEAST_PER_MODE * wanted)
-    refinement = max(1, wanted // _MODES_PER_REFINEMENT)
-    chain = beam.chain(family, refinement)
-    smooth = smooth and _resolves_force(chain)
-    counting = solver.counting
-    eigenvalues = counting.find(chain, wanted, zeros=zeros).eigenvalues
-    levels = [_omega2(eigenvalues)]
-    error = np.zeros(len(eigenvalues))
-    warnings: list[str] = []
-    while np.any(beam.varies(family)):
-        refinement *= 2
-        chain, before = beam.chain(family, refinement), error
-        expected = _expected(levels)
-        eigenvalues = counting.find(chain, wanted, zeros=zeros, expected=expected).eigenvalues
-        levels.append(_omega2(eigenvalues))
-        error = _discretisation_error(levels[-3:])
-        relative = _relative_error(chain, levels[-1], error)
-        trusted = smooth or len(levels) > _MOST_DOUBTS or _order_is_four(levels, relative)
-        if trusted and np.all(relative <= tolerance):
-            break
-        if 2 * len(chain.length) > most or _is_noise(error, before, relative):
-            if np.any(relative > tolerance):
-                warnings.append(
-                    f"{family}: {len(chain.length)} segments do not reach the tolerance "
-                    f"{tolerance:g}; see the errors, or ask for fewer modes or a larger tolerance"
-                )
-            break
+    counting, first = solver.counting, max(1, wanted // _MODES_PER_REFINEMENT)
+
+    def solve(chain: Chain, expected: Array | None = None) -> list[Eigenvalue]:
+        return counting.find(chain, wanted, zeros=zeros, expected=expected).eigenvalues
+
+    if not np.any(beam.varies(family)):
+        chain = beam.chain(family)
+        eigenvalues = solve(chain)
+        error, warnings = np.zeros(len(eigenvalues)), list[str]()
+    else:
+        chain, eigenvalues, error, warnings = _refine(beam, family, first, tolerance, most, solve)
     if solver is counting:
         return Solved(chain, eigenvalues, error, warnings)
     found = solver.find(chain, wanted, zeros=zeros)
@@ -85,64 +150,37 @@ def solve_family(
     return Solved(chain, found.eigenvalues, unknown, [*warnings, *found.warnings])
 
 
-def _resolves_force(chain: Chain) -> bool:
-    """Tell whether no segment is long against sqrt(EI/N), the width of a layer at an end."""
-    if not chain.law.has_axial_force:
-        return True
-    return bool(np.all(np.abs(chain.axial_force) * chain.length**2 < _LAYER * chain.stiffness))
-
-
-def _expected(levels: list[Array]) -> Array | None:
-    """Return places beside the next eigenvalues, if the error keeps falling as the fourth power."""
-    if len(levels) < 2 or len(levels[-1]) != len(levels[-2]):
-        return None
-    last, change = levels[-1], levels[-1] - levels[-2]
-    spread = np.maximum(np.abs(change) / 64, _LIKELY * np.abs(last))
-    return np.unique(last + change / 16 + spread * _BESIDE[:, None])
+def _refine(
+    beam: Beam,
+    family: FamilyName,
+    refinement: int,
+    tolerance: float,
+    most: int,
+    solve: Callable[[Chain, Array | None], list[Eigenvalue]],
+) -> tuple[Chain, list[Eigenvalue], Array, list[str]]:
+    """Return the finest chain that was needed, its eigenvalues, their errors, and warnings."""
+    smooth = not np.any(beam.without_axial_force().varies(family))
+    chain = beam.chain(family, refinement)
+    few = smooth and layer_length(chain) < _FEW
+    levels = Refinement(tolerance, few, least=NEAR_ZERO * omega2_scale(chain))
+    before = np.inf
+    while True:
+        eigenvalues = solve(chain, levels.expected)
+        levels.add(_omega2(eigenvalues), layer_length(chain, varying_segments(beam, chain)))
+        error = levels.error_of_last
+        if levels.met(error):
+            return chain, eigenvalues, error, []
+        relative = levels.relative(error)
+        noise = relative < NEAR_ZERO and relative > before / 4
+        if noise or (2 * len(chain.length) > most and np.isfinite(relative)):
+            warning = (
+                f"{family}: {len(chain.length)} segments do not reach the tolerance "
+                f"{tolerance:g}; see the errors, or ask for fewer modes or a larger tolerance"
+            )
+            return chain, eigenvalues, error, [warning]
+        refinement, before = 2 * refinement, relative
+        chain = beam.chain(family, refinement)
 
 
 def _omega2(eigenvalues: list[Eigenvalue]) -> Array:
     return np.array([value.omega2 for value in eigenvalues])
-
-
-def _discretisation_error(levels: list[Array]) -> Array:
-    """Estimate the error of the last omega^2 from solutions with steps halved each time.
-
-    When the error falls by 16 it is 1/15 of the last change. A multiple of that is reported, a
-    larger one where the changes fall more slowly or faster, as they do before the fourth order is
-    reached. Where two solutions agree by accident, a share of the change before takes over.
-    """
-    changes, fall = _changes(levels)
-    error = changes[-1] * (_SAFETY / 15)
-    if len(changes) > 1:
-        fall = np.clip(np.minimum(fall, 256 / np.maximum(fall, 1.0)), 3.0, 16.0)
-        error = np.maximum(_SAFETY * changes[-1] / (fall - 1), changes[-2] * _ACCIDENT)
-    return np.append(error, np.full(len(levels[-1]) - len(error), np.max(error)))
-
-
-def _changes(levels: list[Array]) -> tuple[Array, Array]:
-    """Return how omega^2 changed from level to level, and by what the last change is smaller."""
-    common = min(map(len, levels))
-    changes = np.abs(np.diff([omega2[:common] for omega2 in levels], axis=0))
-    return changes, changes[-2 % len(changes)] / np.maximum(changes[-1], np.finfo(float).tiny)
-
-
-def _order_is_four(levels: list[Array], relative: Array) -> bool:
-    """Tell whether the last change of every omega^2 is near 1/16 of the one before, or tiny."""
-    if len(levels) < 3:
-        return False
-    _, fall = _changes(levels[-3:])
-    near = (fall > 16 / 2.5) & (fall < 16 * 2.5)
-    return bool(np.all(near | (relative[: len(fall)] < 1e-10)))
-
-
-def _relative_error(chain: Chain, omega2: Array, error: Array) -> Array:
-    """Return the error of each frequency relative to it (to the chain's own, where near zero)."""
-    return np.asarray(error / 2 / np.maximum(np.abs(omega2), _NEAR_ZERO * omega2_scale(chain)))
-
-
-def _is_noise(error: Array, before: Array, relative: Array) -> bool:
-    """Tell whether estimates are so small, and fall so little, that rounding makes them."""
-    common = min(len(error), len(before))
-    falls_little = np.any(before) and np.all(error[:common] > before[:common] / 4)
-    return bool(falls_little and np.max(relative) < _NEAR_ZERO)

@@ -19,6 +19,7 @@ from antinode.riccati.shapes import propagate
 from antinode.version import __version__
 
 from .dataset import modal_dataset
+from .hertz import error_hz, error_of_root, growth_rate, hertz
 
 if TYPE_CHECKING:
     import xarray
@@ -96,7 +97,7 @@ class Mode:
     @property
     def growth_rate_per_s(self) -> float:
         """Rate at which a divergent motion grows [1/s]; NaN for omega^2 >= 0."""
-        return math.sqrt(-self.omega2) if self.omega2 < 0 else math.nan
+        return growth_rate(self.omega2)
 
     @property
     def bracket_hz(self) -> tuple[float, float]:
@@ -107,9 +108,7 @@ class Mode:
     @property
     def error_hz(self) -> float:
         """Half-width of the interval of frequency that holds the beam's own [Hz]."""
-        if self.omega2 < 0:
-            return math.nan
-        return error_of_root(self.omega2, self.error_omega2) / (2 * math.pi)
+        return error_hz(self.omega2, self.error_omega2)
 
     @property
     def error_growth_rate_per_s(self) -> float:
@@ -127,21 +126,6 @@ class Mode:
     def shape(self) -> Array:
         """Displacement Y, X or phi along `ModalResult.x`, shape (points,)."""
         return np.asarray(self.states[:, 0])
-
-
-def hertz(omega2: float) -> float:
-    """Return the frequency [Hz] that belongs to omega^2 [rad^2/s^2]; NaN if negative."""
-    return math.sqrt(omega2) / (2 * math.pi) if omega2 >= 0 else math.nan
-
-
-def error_of_root(square: float, error: float) -> float:
-    """Return the largest distance of sqrt(square +- error) from sqrt(square), square >= 0."""
-    root = math.sqrt(square)
-    return (
-        max(root - math.sqrt(max(square - error, 0.0)), error / (root + math.sqrt(square + error)))
-        if error
-        else 0.0
-    )
 
 
 @dataclass(frozen=True)
@@ -303,8 +287,8 @@ def _mode_dict(mode: Mode) -> dict[str, Any]:
         else None,
         "shift": null(mode.shift),
         "model_error": mode.model_error,
-        "modal_mass": mode.modal_mass,
-        "residual": mode.residual,
+        "modal_mass": null(mode.modal_mass),
+        "residual": null(mode.residual),
     }
 
 

@@ -1,6 +1,13 @@
-"""Rigid modes: which the supports leave, which are at zero, and their shapes."""
+"""Rigid modes: which the supports leave, which are at zero, which are none, and their shapes.
+
+They are set aside by their index among the eigenvalues, never because they look small. Translation
+has omega^2 = 0 exactly, and so has rotation without axial force; an axial force moves rotation to
+where it is the lowest eigenvalue beside the translation.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -9,6 +16,7 @@ from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
 from antinode.beam.families import FAMILIES, FamilyName
 from antinode.riccati.chain import Chain
+from antinode.riccati.roots import Eigenvalue
 
 
 def rigid_modes(beam: Beam, name: FamilyName) -> tuple[str, ...]:
@@ -53,9 +61,23 @@ def _centre_of_mass(chain: Chain) -> float:
     return float((dm @ middle + masses @ places) / (np.sum(dm) + np.sum(masses)))
 
 
+def elastic(found: Sequence[Eigenvalue], rigid: int) -> list[Eigenvalue]:
+    """Return the eigenvalues without the rigid ones: zeros, and the lowest that N moved off zero.
+
+    Past buckling elastic modes lie below the translation.
+    """
+    others = [value for value in found if value.omega2 != 0.0]
+    return others[rigid - (len(found) - len(others)) :]
+
+
 def translates(ends: Ends) -> bool:
     """Tell whether the ends leave the beam free to move sideways."""
     return not {ends.left, ends.right} & {"clamped", "pinned"}
+
+
+def zeros_of(ends: Ends, axial_force: Array) -> int:
+    """Return how many rigid modes of a chain held at its ends alone have omega^2 = 0 exactly."""
+    return int(translates(ends)) if np.any(axial_force) else rigid_modes_of(ends)
 
 
 def rigid_modes_of(ends: Ends) -> int:

@@ -12,6 +12,7 @@ from antinode.riccati.roots import Eigenvalue
 from antinode.riccati.shapes import Energies, propagate
 
 from .backends import Backend
+from .clusters import part
 from .result import Normalisation
 from .rigid import rigid_state
 
@@ -50,7 +51,8 @@ def shapes(
                 for c in free
             ]
         )
-        states[:, free] = solver.mode_states(chain, omega2, clusters)
+        found = solver.mode_states(chain, omega2, clusters)
+        states[:, free] = part(solver, chain, omega2, found)
     return states
 
 

@@ -179,6 +179,8 @@ def _mode(
     (name, number), (mass, stiffness, size) = named, quadratic
     exact = value.omega2 == 0.0 and number == 0
     rounding = 0.0 if exact else ROUNDING * size / mass
+    if np.isnan(mass):  # no shape: as if much cancelled
+        rounding = 1e3 * ROUNDING * abs(value.omega2)
     low, high = value.bracket[0] - rounding, value.bracket[1] + rounding
     half = max(value.omega2 - low, high - value.omega2)
     error = 0.0 if exact else half + float(solved.discretisation[k])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from antinode.beam.beam import Beam
@@ -38,6 +40,12 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
         )
     if any(m.kind == "divergent" and not m.number for m in modes):
         warnings.append(_rotation_warning(beam))
+    shapeless = [m.name for m in modes if math.isnan(m.modal_mass)]
+    if shapeless:
+        warnings.append(
+            f"{', '.join(shapeless)}: modes that coincide, whose shapes could not be told apart; "
+            "the frequencies and their counts hold"
+        )
     errors = [(m.name, m.model_error) for m in modes if m.model_error is not None]
     large = [name for name, error in errors if abs(error) > _MODEL_LIMIT]
     if large:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from antinode.beam.families import BENDING
 from antinode.modes.buckling import Buckling
-from antinode.modes.result import ModalResult, Mode, hertz
+from antinode.modes.hertz import hertz
+from antinode.modes.result import ModalResult, Mode
 from antinode.show.style import pyplot, styled
 
 from .blocks import Block, Figure, Section, Table, paragraph, runs, table

@@ -177,22 +177,28 @@ def _states(fine: Chain, omega2: Array, multiplicity: Integers, largest: float) 
     node = np.argmin(matching.gap, axis=0)
     state = matching.state[node, np.arange(len(omega2))]
     z = carry_outwards(matching.left, matching.right, node, state)
-    block = np.flatnonzero(np.array(steps.kind) == "block")
+    kinds = np.array(steps.kind)
+    block, points = np.flatnonzero(kinds == "block"), np.flatnonzero(kinds != "block")
     weight = np.zeros(len(z))
     weight[block] = np.add.reduceat(fine.mass * fine.length, starts)
     for lane in np.flatnonzero(multiplicity > 1):
         if lane == 0 or omega2[lane - 1] != omega2[lane]:
             members = slice(int(lane), int(lane + multiplicity[lane]))
-            z[:, members] = _cluster(matching, int(lane), int(multiplicity[lane]), weight)
+            z[:, members] = _cluster(matching, int(lane), int(multiplicity[lane]), weight, points)
     states = fill_blocks(z[np.append(block, block[-1] + 1)], U, starts)
     return states * units
 
 
-def _cluster(matching: Matching, lane: int, members: int, weight: Array) -> Array:
-    """Return independent modes of a cluster, matched at several places, (steps + 1, members, s)."""
+def _cluster(matching: Matching, lane: int, members: int, weight: Array, points: Integers) -> Array:
+    """Return independent modes of a cluster, matched at several places, (steps + 1, members, s).
+
+    There is a place between any two points: each span may have a mode of its own. Where they cannot
+    be told apart, all are NaN.
+    """
     gap = matching.gap[:, lane]
-    spread = np.array_split(np.arange(len(gap)), min(_CANDIDATE_NODES, len(gap)))
-    nodes = np.array([part[np.argmin(gap[part])] for part in spread])
+    even = np.linspace(0, len(gap), min(_CANDIDATE_NODES, len(gap)) + 1)[1:-1].astype(np.int64)
+    spread = np.split(np.arange(len(gap)), np.unique(np.concatenate([even, points + 1])))
+    nodes = np.array([part[np.argmin(gap[part])] for part in spread if len(part)])
     d = matching.right.F.shape[-1]
     frames = matching.right.F[nodes, lane]
     states = np.concatenate([matching.state[nodes, lane]] + [frames[..., j] for j in range(d)])
@@ -235,7 +241,7 @@ def _independent(z: Array, weight: Array, quality: Array, members: int) -> Array
         best = int(np.argmax(np.linalg.norm(displacement, axis=0)))
         size = float(np.linalg.norm(displacement[:, best]))
         if size < 1e-6:
-            raise ArithmeticError("the modes of a cluster could not be told apart")
+            return np.full(chosen.shape, np.nan)
         chosen[:, k] = z[:, best] / size
         unit = displacement[:, best] / size
         share = unit @ displacement

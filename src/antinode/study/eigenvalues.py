@@ -13,9 +13,12 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
+from antinode.beam.ends import FREE
 from antinode.beam.families import BENDING, LONGITUDINAL, FamilyName
 from antinode.errors import ComputationError
 from antinode.modes.batch import BeamBatch, solve_many
+from antinode.modes.hertz import signed_hertz
+from antinode.modes.rigid import elastic, zeros_of
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.vehicle.case import Case
@@ -50,18 +53,7 @@ class CaseEigenvalues:
 
     def frequencies_hz(self, family: FamilyName) -> Array:
         """Return the frequencies of modes 1, 2, ... [Hz]; negative for a divergent mode."""
-        return hertz(self.modes[family].omega2)
-
-
-def hertz(omega2: Array) -> Array:
-    """Return frequencies [Hz] of omega^2 [rad^2/s^2], with its sign."""
-    return np.asarray(np.sign(omega2) * np.sqrt(np.abs(omega2)) / (2 * np.pi))
-
-
-def hertz_slope(omega2: Array) -> Array:
-    """Return the derivative of `hertz` by omega^2 [Hz s^2/rad^2]."""
-    size = np.sqrt(np.maximum(np.abs(omega2), np.finfo(float).tiny))
-    return np.asarray(1 / (4 * np.pi * size))
+        return signed_hertz(self.modes[family].omega2)
 
 
 def eigenvalues_of(
@@ -106,7 +98,7 @@ def _bending(chains: Sequence[Chain], numbers: Sequence[int]) -> list[Array]:
         omega2 = solve_many(batch).omega2
         for k, values in zip(rows, omega2, strict=True):
             known = bool(np.all(np.isfinite(values)))
-            zeros = 1 if np.any(chains[k].axial_force) else 2
+            zeros = zeros_of(FREE, chains[k].axial_force)
             found[k] = values[: numbers[k]] if known else _solve(chains[k], numbers[k], 2, zeros)
     return found
 
@@ -118,10 +110,7 @@ def _solve(chain: Chain, number: int, rigid: int, zeros: int) -> Array:
     except (CountingError, FloatingPointError) as error:
         wrong = f"the {chain.family} eigenvalues could not be found: {error}"
         raise ComputationError(wrong) from error
-    omega2 = [value.omega2 for value in found]
-    for _ in range(zeros):
-        omega2.remove(0.0)
-    return np.array(omega2[rigid - zeros :][:number])
+    return np.array([value.omega2 for value in elastic(found, rigid)[:number]])
 
 
 def sufficient_refinement(case: Case, wanted: Wanted, tolerance: float) -> int:

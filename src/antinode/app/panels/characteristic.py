@@ -7,17 +7,18 @@ from typing import Any
 import numpy as np
 
 from antinode.app.compute import Answer
+from antinode.modes.hertz import hertz
 
 from .numbers import pairs, short_list
 
 
 def characteristic_data(answer: Answer) -> dict[str, Any]:
     """Return the function, scaled to sign(y) |y|^(1/3) of its largest value, and the roots."""
-    hertz, values = answer.characteristic
+    frequencies, values = answer.characteristic
     size = np.max(np.abs(values)) or 1.0
     omega2 = answer.quick.omega2
     return {
-        "points": pairs(hertz, np.cbrt(values / size)),
-        "roots": short_list(np.sqrt(omega2[omega2 > 0]) / (2 * np.pi), 6),
+        "points": pairs(frequencies, np.cbrt(values / size)),
+        "roots": short_list(hertz(omega2[omega2 > 0]), 6),
         "divergent": int(np.sum(omega2 < 0)),
     }

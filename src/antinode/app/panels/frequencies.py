@@ -9,7 +9,8 @@ from antinode.app.compute import Answer
 from antinode.app.quick import QUICK_FAMILY
 from antinode.app.state import View
 from antinode.beam.families import FamilyName
-from antinode.modes.result import Mode, error_of_root, hertz
+from antinode.modes.hertz import error_hz, hertz
+from antinode.modes.result import Mode
 
 
 class Row(NamedTuple):
@@ -59,7 +60,7 @@ def _row(mode: Mode) -> Row:
 def _shown(row: Row, baseline: float | None, view: View) -> dict[str, Any]:
     frequency = hertz(row.omega2)
     divergent = math.isnan(frequency)
-    error = math.nan if divergent else error_of_root(row.omega2, row.error_omega2) / (2 * math.pi)
+    error = error_hz(row.omega2, row.error_omega2)
     return {
         "name": row.name,
         "number": row.name.rpartition(" ")[2],

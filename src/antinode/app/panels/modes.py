@@ -11,6 +11,7 @@ from antinode.app.display import shown_unit
 from antinode.app.quick import QUICK_FAMILY
 from antinode.app.state import View
 from antinode.beam.families import FAMILIES, FamilyName
+from antinode.modes.hertz import hertz
 
 from .numbers import pairs, thinned
 
@@ -57,7 +58,7 @@ def _shapes(
 
 
 def _label(omega2: float) -> str:
-    return f"{np.sqrt(omega2) / (2 * np.pi):.4g} Hz" if omega2 >= 0 else "divergent"
+    return f"{hertz(omega2):.4g} Hz" if omega2 >= 0 else "divergent"
 
 
 def _largest_one(values: np.ndarray) -> np.ndarray:

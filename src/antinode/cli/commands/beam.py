@@ -40,9 +40,9 @@ def beam(
     result = solve(load_beam(file, set_), solver)
     critical = None
     if buckling:
-        from antinode.modes.buckling import buckling as find_factor
+        from antinode.modes.buckling import buckling_of
 
-        critical = find_factor(result.beam, result.tolerance)
+        critical = buckling_of(result)
     found = {"buckling": critical.to_dict() if critical else None} if buckling else {}
     if output.plot:
         from antinode.show.figures import plot_modes

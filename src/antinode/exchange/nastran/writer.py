@@ -21,7 +21,8 @@ from antinode.beam.attachments import Joint, PointMass, Spring
 from antinode.beam.beam import Beam
 from antinode.beam.families import LONGITUDINAL
 from antinode.exchange.units import SI, System
-from antinode.modes.result import ModalResult, hertz
+from antinode.modes.hertz import hertz
+from antinode.modes.result import ModalResult
 from antinode.version import __version__
 
 from .cards import card_text

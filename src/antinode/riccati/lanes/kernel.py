@@ -27,6 +27,7 @@ import math
 
 import numpy as np
 
+from antinode.riccati import convergence
 from antinode.riccati.arrays import Array
 from antinode.riccati.reasons import (
     CERTIFIED,
@@ -1161,8 +1162,7 @@ NEAR = 0.5 + math.sqrt(3) / 3
 
 MOST_LEVELS = 7
 _COARSE = 1e-8  # relative width of chains that only tell how omega^2 changes
-_ACCIDENT = 1 / 100  # of the last change of omega^2 that an error keeps, a neighbour's as well
-_SHARE = 1 / 4  # of the last change of the extrapolated omega^2: its error falls by 16 or more
+_LEAST = 1e-9  # omega^2, dimensionless, that is as good as zero
 
 
 @compiled
@@ -1293,24 +1293,18 @@ def make_halves(
     return i
 
 
-@compiled
-def _refined(levels, level, tolerance, coarse, error, better):
-    """Extrapolate twice and compare; return whether every omega^2 is within the tolerance.
+_extrapolate, _within = compiled(convergence.extrapolate), compiled(convergence.within)
 
-    Roots of the first two levels may err by a tenth of the width `coarse`, of which 1/15 counts.
-    """
-    number, sure = levels.shape[1], True
-    for k in range(number):
-        a, b, c = levels[level - 2, k], levels[level - 1, k], levels[level, k]
-        better[k] = c + (c - b) / 15
-        error[k] = _SHARE * abs(better[k] - (b + (b - a) / 15)) + coarse / 100 * abs(better[k])
-    for k in range(number):
-        for j in range(max(0, k - 1), min(number, k + 2)):
-            a, b, c = levels[level - 2, j], levels[level - 1, j], levels[level, j]
-            change = max(abs(c - b), abs(b - a) / 16) / abs(better[j])
-            error[k] = max(error[k], _ACCIDENT * change * abs(better[k]))
-        sure = sure and error[k] <= 2.0 * tolerance * abs(better[k])
-    return sure
+
+@compiled
+def _layer_length(own, first, varies):
+    """Return the largest N h^2/EI of the segments of what varies: of layers, in segments."""
+    longest = 0.0
+    for k in range(len(varies)):
+        if varies[k]:
+            for i in range(first[k], first[k + 1]):
+                longest = max(longest, abs(own[3, i]) * own[0, i] * own[0, i] / own[2, i])
+    return longest
 
 
 @compiled
@@ -1407,7 +1401,11 @@ def solve_levels(
             better[k], error[k] = root[k], 0.0
             if level > 0:
                 root[k] += (root[k] - levels[level - 1, k]) / 16
-        if not varying or (level > 1 and _refined(levels, level, tolerance, coarse, error, better)):
+        done = not varying
+        if level > 1:
+            _extrapolate(levels, level, coarse, _layer_length(own, first, varies), better, error)
+            done = _within(better, error, tolerance, _LEAST)
+        if done:
             unit = EI0 / (m0 * L * L * L * L)
             _report(unit, better, error, low, high, rounding, omega2, error_omega2, bracket)
             return CERTIFIED, n

@@ -34,7 +34,7 @@ HELPERS |= {"sqrt": "sqrt", "numba_frexp": "frexp", "numba_ldexp": "ldexp"}
 """What the machine code may call from outside, and the name in the C library."""
 
 _FOLDER = Path(__file__).parent
-_MORE_SOURCES = [_FOLDER.parent / "reasons.py"]
+_MORE_SOURCES = [_FOLDER.parent / name for name in ("convergence.py", "reasons.py")]
 _NOT_COMPILED = {"__init__.py", "calls.py"}
 _CHECK = 32  # bytes of a digest, before the code
 _PATIENCE = 2.0  # s

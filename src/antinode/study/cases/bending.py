@@ -11,8 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from antinode.arrays import Array, Integers
+from antinode.beam.ends import FREE
 from antinode.beam.families import BENDING, FAMILIES
 from antinode.modes.batch import BeamBatch, solve_many
+from antinode.modes.rigid import elastic, rigid_modes_of, zeros_of
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.study.design.file import Study
@@ -133,17 +135,13 @@ def _chain(chains: Chains, i: int) -> Chain:
 
 
 def _by_frames(chain: Chain, modes: int) -> tuple[Array, Array] | None:
-    """Return omega^2 of the elastic modes of a free chain, and its error.
-
-    Translation is the eigenvalue that is zero, wherever it stands: past buckling elastic modes come
-    before it. The lowest one beside it is the rotation.
-    """
-    zeros = 1 if np.any(chain.axial_force) else 2
+    """Return omega^2 of the elastic modes of a free chain, and its error."""
+    zeros = zeros_of(FREE, chain.axial_force)
     try:
-        found = find_eigenvalues(chain, modes + 2, zeros=zeros)
+        found = find_eigenvalues(chain, modes + rigid_modes_of(FREE), zeros=zeros)
     except (CountingError, FloatingPointError, ValueError):
         return None
-    rest = [e for e in found if e.omega2 != 0.0][2 - zeros :][:modes]
+    rest = elastic(found, rigid_modes_of(FREE))[:modes]
     if len(rest) < modes:
         return None
     omega2 = np.array([e.omega2 for e in rest])

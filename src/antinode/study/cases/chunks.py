@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arrays import Array
+from antinode.modes.hertz import error_hz, growth_rate, hertz
 from antinode.study.design.file import Study
 from antinode.study.design.points import Points
 from antinode.vehicle.refusals import OUT_OF_RANGE
@@ -70,14 +71,9 @@ def _every_family(cases: Cases, beams: CaseBeams, points: int) -> Eigenvalues:
 def _of_modes(found: Eigenvalues) -> dict[str, Array]:
     """Return the outputs that have one number a mode."""
     omega2 = found.omega2
-    hz, error = _hertz(omega2), np.minimum(found.error, np.abs(omega2))
     return {
         "omega2": omega2,
-        "frequency_hz": hz,
-        "error_hz": hz - _hertz(omega2 - error),
-        "growth_rate_per_s": np.sqrt(np.where(omega2 < 0, -omega2, np.nan)),
+        "frequency_hz": hertz(omega2),
+        "error_hz": error_hz(omega2, found.error),
+        "growth_rate_per_s": growth_rate(omega2),
     }
-
-
-def _hertz(omega2: Array) -> Array:
-    return np.asarray(np.sqrt(np.where(omega2 >= 0, omega2, np.nan)) / (2 * np.pi))

@@ -15,7 +15,8 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.families import FamilyName
 from antinode.errors import AntinodeError
-from antinode.study.eigenvalues import CaseEigenvalues, eigenvalues_of, hertz, hertz_slope
+from antinode.modes.hertz import signed_hertz, signed_hertz_slope
+from antinode.study.eigenvalues import CaseEigenvalues, eigenvalues_of
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import EigenvalueDerivatives
 from antinode.vehicle.effects import Effect, by_logarithm, effect_of_number, effect_of_radius
@@ -44,7 +45,7 @@ class Evaluation:
     def fitted_hz(self, row: int, family: FamilyName) -> Array:
         """Return the frequencies that stand against the observed ones [Hz]."""
         omega2 = self.solved[row].modes[family].omega2
-        return hertz(omega2[self.pairings[row][family].index])
+        return signed_hertz(omega2[self.pairings[row][family].index])
 
 
 @dataclass(frozen=True)
@@ -112,7 +113,7 @@ class Misfit:
                 index = at.pairings[k][family].index
                 omega2 = at.solved[k].modes[family].omega2[index]
                 block = derivative.by_vector(family)[index]
-                blocks.append(block * (hertz_slope(omega2) / data.sd)[:, None])
+                blocks.append(block * (signed_hertz_slope(omega2) / data.sd)[:, None])
         return np.concatenate(blocks)
 
 

@@ -18,6 +18,7 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.families import FamilyName
 from antinode.errors import AntinodeError, ComputationError, InputError
+from antinode.modes.hertz import hertz
 from antinode.study.cases.chunks import mode_names
 from antinode.study.cases.reasons import failed
 from antinode.study.design.file import Study
@@ -216,7 +217,7 @@ def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]
         by_input = np.stack([_by_input(study.case, exact, v) for v in points.variables], axis=1)
         for k in range(number):
             with np.errstate(all="ignore"):
-                hz = float(np.sqrt(omega2[k]) / (2 * np.pi))
+                hz = hertz(float(omega2[k]))
                 found[f"{family} {k + 1}"] = hz, by_input[k] / (8 * np.pi**2 * hz)
     return found
 
