@@ -23,9 +23,8 @@ from .bending import IN_BATCHES, Eigenvalues, solve_bending
 from .reasons import failed
 from .shear import model_errors
 from .values import Cases
-from .warned import warned
+from .warned import type_of_bits, warned
 
-WARNED = "int32"
 Arrays = dict[str, npt.NDArray[Any]]
 
 
@@ -43,7 +42,8 @@ def compute_chunk(points: Points, chunk: int) -> Arrays:
     found, shear = _every_family(cases, beams, size)
     out: Arrays = {v.name: cases.values[:, k] for k, v in enumerate(points.variables)}
     out["reason"] = found.reason.astype(np.int16)
-    out["warned"] = warned(found.reason, found.omega2, found.net_force, shear).astype(WARNED)
+    bits = warned(found.reason, found.omega2, found.net_force, shear, beams.doubts)
+    out["warned"] = bits.astype(type_of_bits(study))
     loaded = found.reason < OUT_OF_RANGE
     scalars = {name: np.where(loaded, values, np.nan) for name, values in beams.scalars.items()}
     every = scalars | _of_modes(found) | {"model_error": shear}

@@ -4,7 +4,7 @@ To first order a frequency changes by ``-(R + S / omega^2) / 2`` of itself (`mod
 
     R = int m r^2 Y'^2 / int m Y^2,      S = int (EI)^2 Y'''^2 / (kGA) / int m Y^2.
 
-Shapes cost more than frequencies: they are computed for 32 cases, spread evenly over the mean of
+Shapes cost more than frequencies: they are computed for 16 cases, spread evenly over the mean of
 N/EI, and give weights for every interval of the stations. Between these cases the weights are
 interpolated; EI, EA, r and the mass are those of the case itself.
 """
@@ -28,7 +28,7 @@ from .bending import Eigenvalues, chain_of
 from .reasons import failed
 from .values import Cases
 
-_SAMPLE = 32
+_SAMPLE = 16
 _ENTRIES = 1_000_000  # of the weights that are held at once
 
 

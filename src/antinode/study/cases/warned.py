@@ -19,6 +19,7 @@ from antinode.modes.warnings import (
 )
 from antinode.study.design.file import Study
 
+from .beams import load_messages
 from .reasons import failed
 
 _OF_MODES = (
@@ -29,12 +30,28 @@ _OF_MODES = (
 )
 
 
+_LAST = 62
+"""The highest bit; sentences beyond it share it (of a vehicle with some fifty sets of fins)."""
+
+
 def messages(study: Study) -> tuple[str, ...]:
     """Return what a case of a study can warn of, in the order of the bits."""
-    return _OF_MODES
+    texts = (*_OF_MODES, *load_messages(study.case))
+    return (*texts[:_LAST], "; or ".join(texts[_LAST:])) if len(texts) > _LAST else texts
 
 
-def warned(reason: Integers, omega2: Array, net_force: Array, model_error: Array) -> Integers:
+def type_of_bits(study: Study) -> str:
+    """Return the smallest type that has a bit for each message."""
+    return "int32" if len(messages(study)) < 32 else "int64"
+
+
+def warned(
+    reason: Integers,
+    omega2: Array,
+    net_force: Array,
+    model_error: Array,
+    doubts: npt.NDArray[np.bool_],
+) -> Integers:
     """Return the bits of every case.
 
     Parameters
@@ -44,6 +61,8 @@ def warned(reason: Integers, omega2: Array, net_force: Array, model_error: Array
     omega2, model_error : array, shape (cases, modes)
     net_force : array, shape (cases,)
         Integral of N along the axis [N m].
+    doubts : array of bool, shape (warnings, cases)
+        About the loads.
     """
     with np.errstate(invalid="ignore"):
         told = (
@@ -52,7 +71,9 @@ def warned(reason: Integers, omega2: Array, net_force: Array, model_error: Array
             np.any(np.abs(model_error) > MODEL_LIMIT, axis=1),
             np.any(shear_buckles(model_error), axis=1),
         )
-    bits = sum(np.where(each, 1 << k, 0) for k, each in enumerate(told))
+    bits = np.zeros(len(reason), dtype=np.int64)
+    for k, each in enumerate((*told, *doubts)):
+        bits |= each * np.int64(1 << min(k, _LAST))
     return np.where(failed(reason), 0, bits)
 
 

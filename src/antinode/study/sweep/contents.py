@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from antinode.study.cases.chunks import WARNED, mode_names
+from antinode.study.cases.chunks import mode_names
 from antinode.study.cases.reasons import WHY, failed
-from antinode.study.cases.warned import counted_warnings, messages
+from antinode.study.cases.warned import counted_warnings, messages, type_of_bits
 from antinode.study.design.file import LOAD_OUTPUTS, MODE_OUTPUTS, Study
 from antinode.study.design.points import Points
 from antinode.vehicle.case import Case
@@ -65,7 +65,7 @@ def outputs_of(points: Points) -> dict[str, Output]:
         for v in points.variables
     }
     found["reason"] = Output(("case",), (n,), "int16", _reason_attrs())
-    found["warned"] = Output(("case",), (n,), WARNED, _warned_attrs(study))
+    found["warned"] = Output(("case",), (n,), type_of_bits(study), _warned_attrs(study))
     for name in study.outputs:
         each = name in MODE_OUTPUTS
         unit, text = (MODE_OUTPUTS if each else LOAD_OUTPUTS)[name]
