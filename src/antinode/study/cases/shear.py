@@ -18,7 +18,7 @@ import numpy as np
 from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES, FamilyName
-from antinode.modes.kernel import kernel
+from antinode.modes.backends import choose
 from antinode.modes.shapes import ModelErrorParts, model_error_parts
 from antinode.riccati.chain import Chain
 from antinode.vehicle.case import body_as_beam
@@ -137,7 +137,7 @@ def _weights(bodies: _Bodies, beams: CaseBeams, sample: Integers, omega2: Array)
 
 def _parts(body: Beam, chain: Chain, omega2: Array, stations: Array) -> Array:
     """Return R and S of one case by interval of the stations, shape (2, modes, intervals)."""
-    compiled = kernel()
+    compiled = choose("numba")
     try:
         states = compiled.mode_states(chain, omega2, np.ones(len(omega2), dtype=np.int64))
         parts = model_error_parts(body, chain, compiled.mode_energies(chain, states, omega2))
