@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from antinode.arrays import Array
@@ -86,16 +88,31 @@ def _first_extremum_signs(Y: Array, largest: Array) -> Array:
     return np.where(Y[first, np.arange(Y.shape[1])] >= 0, 1.0, -1.0)
 
 
-def estimate_model_errors(
-    beam: Beam, chain: Chain, omega2: Array, energies: Energies
-) -> list[float | None]:
-    """Return the first-order effect of rotary inertia and shear on each frequency, relative.
+class ModelErrorParts(NamedTuple):
+    """What a beam without shear and rotary inertia leaves out, to first order.
 
-    ``-1/2 [int m r^2 theta^2 + int M'^2/(kGA) / omega^2] / int m Y^2``, with the shear stiffness
-    kGA = EA / (4 (1 + nu)) of a thin-walled tube, nu = 0.3.
+    The relative effect on a frequency is ``-(rotary + shear / omega^2) / 2``.
     """
-    if not FAMILIES[chain.family].rotary or beam.axial_stiffness is None:
-        return [None] * len(omega2)
+
+    rotary: Array
+    """int m r^2 theta^2 / int m Y^2 [-]"""
+    shear: Array
+    """int M'^2/(kGA) / int m Y^2 [rad^2/s^2]"""
+
+    def effect(self, omega2: Array) -> Array:
+        """Return the relative effect on the frequencies; NaN where a mode does not vibrate."""
+        with np.errstate(all="ignore"):
+            effect = -(self.rotary + self.shear / omega2) / 2
+        return np.asarray(np.where(omega2 > 0, effect, np.nan))
+
+
+def model_error_parts(beam: Beam, chain: Chain, energies: Energies) -> ModelErrorParts:
+    """Return the share of every segment in both parts, shape (n, modes), of a beam with EA.
+
+    The shear stiffness is that of a thin-walled tube, kGA = EA / (4 (1 + nu)) with nu = 0.3; the
+    radius of gyration is the beam's, or sqrt(EI/EA).
+    """
+    assert beam.axial_stiffness is not None
     middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2 + beam.x[0]
     k = np.clip(np.searchsorted(beam.x, middle) - 1, 0, len(beam.x) - 2)
     t = (middle - beam.x[k]) / np.diff(beam.x)[k]
@@ -105,8 +122,17 @@ def estimate_model_errors(
     else:
         r2 = chain.stiffness / EA
     kGA = EA / (4 * 1.3)
-    vibrates = omega2 > 0
-    rotary = (chain.mass * r2) @ energies.squares.slope
-    shear = (1 / kGA) @ energies.squares.shear / np.where(vibrates, omega2, 1.0)
-    errors = (-(rotary + shear) / energies.mass / 2).tolist()
-    return [e if known else None for e, known in zip(errors, vibrates.tolist(), strict=True)]
+    rotary = (chain.mass * r2)[:, None] * energies.squares.slope
+    shear = energies.squares.shear / kGA[:, None]
+    return ModelErrorParts(rotary / energies.mass, shear / energies.mass)
+
+
+def estimate_model_errors(
+    beam: Beam, chain: Chain, omega2: Array, energies: Energies
+) -> list[float | None]:
+    """Return the first-order effect of rotary inertia and shear on each frequency, relative."""
+    if not FAMILIES[chain.family].rotary or beam.axial_stiffness is None:
+        return [None] * len(omega2)
+    by_segment = model_error_parts(beam, chain, energies)
+    parts = ModelErrorParts(*(part.sum(axis=0) for part in by_segment))
+    return [None if np.isnan(e) else e for e in parts.effect(omega2).tolist()]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,25 @@ from antinode.beam.beam import Beam
 
 from .result import Mode
 
-_MODEL_LIMIT = 0.02
+MODEL_LIMIT = 0.02
+"""Share of a frequency beyond which shear and rotary inertia are warned of."""
+_MOST = 0.5  # of a first-order effect: omega^2 would be negative
+PAST_BUCKLING = (
+    "the axial compression is past buckling; the motion grows instead of vibrating: reduce the "
+    "compression or stiffen the beam"
+)
+ROTATION_DIVERGES = (
+    "rigid rotation is divergent (omega^2 < 0), as for every free body in net compression by "
+    "forces of fixed direction; control of the attitude is outside this model"
+)
+SHEAR_BUCKLES = (
+    "to first order shear and rotary inertia would lower omega^2 below zero (the frequency by "
+    f"{_MOST:.0%} or more): in truth the mode may be past buckling"
+)
+SHEAR_LOWERS = (
+    "shear and rotary inertia, which the model leaves out, lower the frequency by more than "
+    f"{MODEL_LIMIT:.0%}; use a Timoshenko model there"
+)
 
 
 def _rotation_warning(beam: Beam) -> str:
@@ -19,10 +38,7 @@ def _rotation_warning(beam: Beam) -> str:
     ends = [beam.axial_force_at(k, np.full(len(k), t)) for t in (0.0, 0.5, 1.0)]
     net = float(np.diff(beam.x) @ (ends[0] + 4 * ends[1] + ends[2])) / 6
     if net > 0 or beam.attachments:
-        return (
-            "rigid rotation is divergent (omega^2 < 0), as for every free body in net compression "
-            "by forces of fixed direction; control of the attitude is outside this model"
-        )
+        return ROTATION_DIVERGES
     return (
         "the lowest mode, counted as rigid rotation, is divergent (omega^2 < 0): the body is in "
         "net tension, but compressed in parts past their buckling; reduce the compression there"
@@ -34,10 +50,7 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
     warnings = []
     divergent = [m.name for m in modes if m.kind == "divergent" and m.number]
     if divergent:
-        warnings.append(
-            f"{', '.join(divergent)}: omega^2 < 0, the axial compression is past buckling; "
-            "the motion grows instead of vibrating: reduce the compression or stiffen the beam"
-        )
+        warnings.append(f"{', '.join(divergent)}: omega^2 < 0, {PAST_BUCKLING}")
     if any(m.kind == "divergent" and not m.number for m in modes):
         warnings.append(_rotation_warning(beam))
     shapeless = [m.name for m in modes if math.isnan(m.modal_mass)]
@@ -47,10 +60,15 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
             "the frequencies and their counts hold"
         )
     errors = [(m.name, m.model_error) for m in modes if m.model_error is not None]
-    large = [name for name, error in errors if abs(error) > _MODEL_LIMIT]
+    large = [name for name, error in errors if abs(error) > MODEL_LIMIT]
     if large:
-        warnings.append(
-            f"{large[0]} and above: shear and rotary inertia, which the model leaves out, lower "
-            f"the frequency by more than {_MODEL_LIMIT:.0%}; use a Timoshenko model there"
-        )
+        warnings.append(f"{large[0]} and above: {SHEAR_LOWERS}")
+    buckled = [name for name, error in errors if shear_buckles(error)]
+    if buckled:
+        warnings.append(f"{', '.join(buckled)}: {SHEAR_BUCKLES}")
     return warnings
+
+
+def shear_buckles(effect: Any) -> Any:
+    """Tell where the first-order effect of shear on a frequency, or on many, leaves none of it."""
+    return effect <= -_MOST

@@ -11,16 +11,16 @@ from antinode.study.design.file import Study
 from antinode.study.design.points import Points, points_of
 from antinode.study.sensitivity.sensitivity import SensitivityResult, sensitivity
 from antinode.study.sweep.figures import plot_sweep
-from antinode.study.sweep.report import summary
+from antinode.study.sweep.report import shear_text, summary, warning_texts
 from antinode.study.sweep.sweep import sweep
 from antinode.text import counted
 
-from .blocks import Block, Document, Section, paragraph, runs, table
+from .blocks import Block, Document, Section, paragraph, runs, table, warnings
 from .inputs import case_inputs
 from .modal_sections import drawn
 from .numbers import number, percent
 from .provenance import Source, provenance_section, today
-from .vehicle_report import facts, warnings_section
+from .vehicle_report import facts, warned, warnings_section
 from .words import method_section
 
 if TYPE_CHECKING:
@@ -39,33 +39,33 @@ def study_report(study: Study, source: Source, command: str) -> tuple[Document, 
         f"{counted(each['cases'], 'case')} failed: {each['text'] or each['reason']}"
         for each in found["failures"]
     ]
-    if found["past_buckling"]:
-        told.append(f"{counted(found['past_buckling'], 'case')} past buckling have no frequency 1")
+    told += warning_texts(found["warnings"], points.cases)
+    uncertainty, left_out = _uncertainty(study)
     sections = [
         method_section(vehicle=True),
         Section("The study", tuple(_study(study, found))),
         *_titled(case_inputs(study.case)),
         Section("Frequencies", tuple(_frequencies(study, points, data, found))),
-        *_indices(study),
-        warnings_section(told),
+        *uncertainty,
+        warnings_section([*told, *left_out]),
         provenance_section(source, _run_facts(study, found), command),
     ]
     document = Document(
         title=f"Natural vibration of {study.case.vehicle.name}: a study",
         subtitle=study.name or counted(points.cases, "case"),
         facts=facts(source),
-        brief=tuple(map(runs, _brief(found))),
+        brief=tuple(map(runs, _brief(found, [*told, *left_out]))),
         sections=tuple(sections),
         date=today(),
     )
-    return document, told
+    return document, [*told, *left_out]
 
 
 def _titled(sections: list[Section]) -> list[Section]:
     return [Section("The case that varies", ()), *sections[1:]]
 
 
-def _brief(found: dict[str, Any]) -> list[str]:
+def _brief(found: dict[str, Any], told: list[str]) -> list[str]:
     inputs = ", ".join(each["name"].replace("_", " ") for each in found["inputs"])
     ranges = [
         f"{each['name']} from {number(each['least_hz'])} to {number(each['largest_hz'])} Hz"
@@ -74,6 +74,7 @@ def _brief(found: dict[str, Any]) -> list[str]:
     return [
         f"{counted(found['cases'], 'case')} over {inputs}; {found['failed']} failed.",
         "; ".join(ranges)[:1].upper() + "; ".join(ranges)[1:] + "." if ranges else "",
+        warned(told),
     ]
 
 
@@ -106,13 +107,40 @@ def _frequencies(
     tracked = "tracked_frequency_hz" in data
     how = "Modes are followed from case to case by their shapes (MAC)." if tracked else ""
     yield drawn("sweep", plot_sweep(study, data), f"Frequencies over the study. {how}".strip())
-    rows = [
-        [each["name"], *(number(each[key], 6) for key in ("least_hz", "mean_hz", "largest_hz"))]
-        for each in found["modes"]
-    ]
-    yield table("Ranges.", ("mode", "least [Hz]", "mean [Hz]", "largest [Hz]"), rows)
+    yield _ranges(found["modes"])
     if study.design.kind not in _SAMPLED:
         yield _cases(points, data, "tracked_frequency_hz" if tracked else "frequency_hz")
+
+
+def _ranges(modes: list[dict[str, Any]]) -> Block:
+    """Return the frequencies' ranges, with both errors beside them."""
+    head = ("mode", "cases", "least [Hz]", "mean [Hz]", "largest [Hz]", "± error [Hz]", _SHEAR)
+    rows = [
+        [
+            each["name"],
+            str(each["cases"]),
+            *(_number(each[key], 6) for key in ("least_hz", "mean_hz", "largest_hz")),
+            _number(each["largest_error_hz"], 2),
+            _shear(each["largest_model_error"]),
+        ]
+        for each in modes
+    ]
+    caption = (
+        "Ranges. The error is the largest among the cases; so is what the last column estimates: "
+        "what a beam with shear and rotary inertia would find."
+    )
+    return table(caption, head, rows)
+
+
+_SHEAR = "shear, rot. inertia"
+
+
+def _number(value: float | None, digits: int) -> str:
+    return "–" if value is None else number(value, digits)
+
+
+def _shear(effect: float | None) -> str:
+    return shear_text(effect).replace("-", "−") or "–"
 
 
 def _cases(points: Points, data: xarray.Dataset, quantity: str) -> Block:
@@ -121,6 +149,7 @@ def _cases(points: Points, data: xarray.Dataset, quantity: str) -> Block:
     chosen = np.unique(np.linspace(0, count - 1, min(count, _MOST_ROWS)).round().astype(int))
     inputs = [(v.name, v.unit) for v in points.variables][:3]
     names = [str(name) for name in data["mode"].values][:6]
+    marked = np.flatnonzero(np.asarray(data["reason"][chosen]) != 0).tolist()
     head = ["case", *(_headed(*each) for each in inputs), *(f"{name} [Hz]" for name in names)]
     hz = np.asarray(data[quantity][chosen])
     rows = []
@@ -130,19 +159,23 @@ def _cases(points: Points, data: xarray.Dataset, quantity: str) -> Block:
     caption = "Tracked frequencies" if quantity.startswith("tracked") else "Frequencies"
     if len(chosen) < count:
         caption += f", {len(chosen)} of {count} cases"
-    return table(f"{caption}.", head, rows, left=())
+    if marked:
+        caption += "; marked are those past buckling or without an answer"
+    return table(f"{caption}.", head, rows, left=(), marked=marked)
 
 
 def _headed(name: str, unit: str) -> str:
     return f"{name.replace('_', ' ')} [{unit or '-'}]"
 
 
-def _indices(study: Study) -> Iterator[Section]:
-    """Yield the section on Sobol indices of a study whose inputs are sampled."""
+def _uncertainty(study: Study) -> tuple[list[Section], list[str]]:
+    """Return the section on Sobol indices of a study whose inputs are sampled, and its warnings."""
     if study.design.kind not in _SAMPLED:
-        return
+        return [], []
     result = sensitivity(study, min(study.design.number or _MOST_SAMPLES, _MOST_SAMPLES))
-    yield Section("Uncertainty and its causes", tuple(_index_blocks(result)))
+    told = warning_texts(result.left_out, result.cases)
+    blocks = [*_index_blocks(result), *([warnings(told)] if told else [])]
+    return [Section("Uncertainty and its causes", tuple(blocks))], told
 
 
 def _index_blocks(result: SensitivityResult) -> Iterator[Block]:
@@ -154,9 +187,14 @@ def _index_blocks(result: SensitivityResult) -> Iterator[Block]:
         "derivative at the case itself, percent for one percent."
     )
     bands = [
-        [m.name, *(number(v, 5) for v in (m.nominal, m.mean, m.sd, *m.band))] for m in result.modes
+        [
+            m.name,
+            *(number(v, 5) for v in (m.nominal, m.mean, m.sd, *m.band)),
+            _shear(m.model_error),
+        ]
+        for m in result.modes
     ]
-    head = ("mode", "the case [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to")
+    head = ("mode", "the case [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to", _SHEAR)
     yield table("Frequencies over the distributions of the inputs.", head, bands)
     rows = [row for m in result.modes for row in _index_rows(result, m)]
     yield table("Sobol indices.", _INDEX_HEAD, rows, left=(0, 1))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from pydantic import Field
@@ -71,18 +72,31 @@ def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float) -> Beam:
     burn_fraction : float
         0 the first mass state, 1 the last.
     """
-    section = vehicle.section(loads.breakpoints, burn_fraction)
     steps = np.repeat(loads.axial_jump[:, None], 2, axis=1)
+    return body_as_beam(
+        vehicle,
+        loads.breakpoints,
+        burn_fraction,
+        axial_force=steps,
+        axial_acceleration=loads.axial_inertia,
+    )
+
+
+def body_as_beam(vehicle: Vehicle, x: Array, burn_fraction: float, **axial: Any) -> Beam:
+    """Return a vehicle as a free-free beam between breakpoints that contain every station.
+
+    Without `axial_force` and `axial_acceleration` it is unloaded.
+    """
+    section = vehicle.section(x, burn_fraction)
     return Beam(
-        x=loads.breakpoints,
+        x=x,
         mass_per_length=section.mass_per_length,
         bending_stiffness=section.bending_stiffness,
         axial_stiffness=section.axial_stiffness,
-        axial_force=steps,
-        axial_acceleration=loads.axial_inertia,
         interpolation=_interpolation(vehicle),
         radius_of_gyration=radius_of_gyration(section),
         name=vehicle.name,
+        **axial,
     )
 
 

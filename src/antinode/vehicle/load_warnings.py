@@ -107,15 +107,17 @@ def validity_of(ranges: tuple[CheckedRange, ...], case: int) -> tuple[Validity, 
 def load_warnings(
     cases: ManyCases, found: Hydrodynamics, counted: npt.NDArray[np.bool_]
 ) -> tuple[LoadWarning, ...]:
-    """Return all warnings of those cases that are counted; what concerns none is left out."""
+    """Return all warnings that these cases can have; they concern those that are counted.
+
+    Their messages follow from the vehicle and the model, not from the numbers of the cases.
+    """
     every = (
         *map(_outside, checked_ranges(cases, found, counted)),
         _closure(cases, found),
         *(_dry_fins(cases, fin, k) for k, fin in enumerate(found.fins, 1)),
         _forebody(cases, found),
     )
-    some = (replace(warning, concerns=warning.concerns & counted) for warning in every)
-    return tuple(warning for warning in some if warning.concerns.any())
+    return tuple(replace(warning, concerns=warning.concerns & counted) for warning in every)
 
 
 def _outside(checked: CheckedRange) -> LoadWarning:

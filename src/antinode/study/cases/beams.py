@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
+import numpy.typing as npt
 
 from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
@@ -13,8 +15,10 @@ from antinode.beam.families import BENDING
 from antinode.beam.limits import check_limits
 from antinode.errors import AntinodeError
 from antinode.study.design.file import LOAD_OUTPUTS
+from antinode.vehicle.case import Case, vehicle_beam
+from antinode.vehicle.loads import loads_of_case
 from antinode.vehicle.many_beams import Chains, ManyBeams
-from antinode.vehicle.many_loads import loads_of_many
+from antinode.vehicle.many_loads import ManyLoads, loads_of_many
 from antinode.vehicle.numbers import is_vectorised
 from antinode.vehicle.refusals import OUT_OF_RANGE
 
@@ -32,6 +36,8 @@ class CaseBeams:
         0, or why a case has no beam.
     scalars : dict
         Loads by the names of `LOAD_OUTPUTS`, shape (cases,).
+    doubts : array of bool, shape (warnings, cases)
+        Which cases each of the `load_messages` concerns.
     exact : bool
         Whether nothing varies inside the segments of any chain.
     chains : callable
@@ -40,6 +46,7 @@ class CaseBeams:
 
     reason: Integers
     scalars: Mapping[str, Array]
+    doubts: npt.NDArray[np.bool_]
     exact: bool
     chains: Callable[[Integers, int], list[Chains]] = field(repr=False)
 
@@ -59,26 +66,38 @@ def _on_arrays(cases: Cases, reason: Integers) -> CaseBeams:
     with np.errstate(all="ignore"):
         far = beams.beyond_limits()
     reason = np.where(far & (reason == 0), BEYOND_LIMITS, reason)
-    return CaseBeams(reason, loads.numbers, beams.exact, beams.chains)
+    return CaseBeams(reason, loads.numbers, _doubts(loads), beams.exact, beams.chains)
+
+
+def load_messages(case: Case) -> tuple[str, ...]:
+    """Return what the loads of cases that differ from one in numbers can warn of."""
+    return tuple(warning.message for warning in loads_of_many(case.many({}, 1)).warnings)
+
+
+def _doubts(loads: ManyLoads) -> npt.NDArray[np.bool_]:
+    return np.array([warning.concerns for warning in loads.warnings])
 
 
 def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
     """Build every case by itself."""
     beams: dict[int, Beam] = {}
     scalars = {name: np.full(len(cases), np.nan) for name in LOAD_OUTPUTS}
+    doubts = np.zeros((len(load_messages(cases.study.case)), len(cases)), dtype=bool)
     for i in np.flatnonzero(reason == 0).tolist():
         try:
             case = cases.case(i)
-            beam = case.beam()
+            many = loads_of_many(case.many({}, 1))
+            beam = vehicle_beam(case.vehicle, loads_of_case(many, 0), case.condition.burn_fraction)
             check_limits(beam)
         except AntinodeError:
             reason[i] = NO_BEAM
             continue
-        beams[i] = beam
+        beams[i], doubts[:, i] = beam, _doubts(many)[:, 0]
         for name in LOAD_OUTPUTS:
-            scalars[name][i] = case.loads.numbers[name]
+            scalars[name][i] = many.numbers[name][0]
     exact = not any(np.any(b.varies(BENDING)) for b in beams.values())
-    return CaseBeams(reason, scalars, exact, lambda rows, fine: _chains_of(beams, rows, fine))
+    chains = partial(_chains_of, beams)
+    return CaseBeams(reason, scalars, doubts, exact, chains)
 
 
 def _chains_of(beams: Mapping[int, Beam], rows: Integers, refinement: int) -> list[Chains]:

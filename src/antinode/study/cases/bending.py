@@ -44,19 +44,23 @@ class Eigenvalues:
         0, past buckling, or why there are none.
     shapes : array, shape (cases, modes, points)
         At even points, of unit norm; without points where they are not wanted.
+    net_force : array, shape (cases,)
+        Integral of N along the axis [N m]; 0 in families that it does not act on.
     """
 
     omega2: Array
     error: Array
     reason: Integers
     shapes: Array
+    net_force: Array
 
 
 def nothing_solved(study: Study, reason: Integers, points: int) -> Eigenvalues:
     """Return eigenvalues that are all unknown yet."""
     shape = len(reason), study.solve.modes
     omega2, error = np.full((2, *shape), np.nan)
-    return Eigenvalues(omega2, error, reason.copy(), np.full((*shape, points), np.nan))
+    shapes = np.full((*shape, points), np.nan)
+    return Eigenvalues(omega2, error, reason.copy(), shapes, np.zeros(len(reason)))
 
 
 def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
@@ -74,6 +78,7 @@ def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
         at = chains.rows
         omega2, error, out.reason[at] = solve_free(chains, study.solve.modes)
         out.omega2[at] = omega2
+        out.net_force[at] = np.sum(chains.length * chains.axial_force, axis=1)
         out.error[at] = error + np.abs(omega2) * share * weight[at, None]
         if points:
             out.shapes[at] = _shapes(chains, omega2, out.reason[at], x)
@@ -120,14 +125,15 @@ def solve_free(chains: Chains, modes: int) -> tuple[Array, Array, Integers]:
     omega2, error, reason = result.omega2, result.error_omega2, result.reason
     buckled = ~(omega2[:, 0] > _NEAR_BUCKLING * omega2[:, -1])
     for i in np.flatnonzero(failed(reason) | buckled).tolist():
-        found = _by_frames(_chain(chains, i), modes)
+        found = _by_frames(chain_of(chains, i), modes)
         if found is not None:
             omega2[i], error[i] = found
             reason[i] = PAST_BUCKLING if omega2[i, 0] < 0 else 0
     return omega2, error, reason
 
 
-def _chain(chains: Chains, i: int) -> Chain:
+def chain_of(chains: Chains, i: int) -> Chain:
+    """Return one of some chains."""
     tables = (chains.length, chains.mass, chains.stiffness, chains.axial_force)
     length, *columns = (table[i if len(table) > 1 else 0] for table in tables)
     law = FAMILIES[BENDING].law
@@ -152,7 +158,7 @@ def _shapes(chains: Chains, omega2: Array, reason: Integers, x: Array) -> Array:
     """Return the shapes at places, of unit norm; NaN where there are none."""
     found = np.full((*omega2.shape, len(x)), np.nan)
     for i in np.flatnonzero(~failed(reason)).tolist():
-        found[i] = unit_shapes(ChainModes(_chain(chains, i), omega2[i]).displacement(x))
+        found[i] = unit_shapes(ChainModes(chain_of(chains, i), omega2[i]).displacement(x))
     return found
 
 

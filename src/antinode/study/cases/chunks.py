@@ -22,7 +22,9 @@ from .alone import solve_alone
 from .beams import CaseBeams, beams_of
 from .bending import IN_BATCHES, Eigenvalues, solve_bending
 from .reasons import failed
+from .shear import model_errors
 from .values import Cases
+from .warned import type_of_bits, warned
 
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -38,20 +40,25 @@ def compute_chunk(points: Points, chunk: int) -> Arrays:
     cases = Cases(study, points.variables, points.values(chunk))
     beams = beams_of(cases)
     size = study.tracking.points if points.tracked else 0
-    found = _every_family(cases, beams, size)
+    found, shear = _every_family(cases, beams, size)
     out: Arrays = {v.name: cases.values[:, k] for k, v in enumerate(points.variables)}
     out["reason"] = found.reason.astype(np.int16)
+    bits = warned(found.reason, found.omega2, found.net_force, shear, beams.doubts)
+    out["warned"] = bits.astype(type_of_bits(study))
     loaded = found.reason < OUT_OF_RANGE
     scalars = {name: np.where(loaded, values, np.nan) for name, values in beams.scalars.items()}
-    every = scalars | _of_modes(found)
+    every = scalars | _of_modes(found) | {"model_error": shear}
     out |= {name: every[name] for name in study.outputs}
     if points.tracked:
         out["shape"] = found.shapes
     return out
 
 
-def _every_family(cases: Cases, beams: CaseBeams, points: int) -> Eigenvalues:
-    """Return the eigenvalues of all families side by side; NaN in cases that failed."""
+def _every_family(cases: Cases, beams: CaseBeams, points: int) -> tuple[Eigenvalues, Array]:
+    """Return the eigenvalues of all families side by side, and what shear would do to them.
+
+    NaN in cases that failed.
+    """
     families: list[Eigenvalues] = []
     for family in cases.study.solve.families:
         if family in IN_BATCHES:
@@ -63,9 +70,13 @@ def _every_family(cases: Cases, beams: CaseBeams, points: int) -> Eigenvalues:
         np.concatenate([getattr(f, name) for f in families], axis=1)
         for name in ("omega2", "error", "shapes")
     )
+    names = cases.study.solve.families
+    shear = [model_errors(cases, beams, *each) for each in zip(names, families, strict=True)]
     bad = failed(reason)
     omega2[bad], error[bad] = np.nan, np.nan
-    return Eigenvalues(omega2, error, reason, shapes)
+    force = np.sum([f.net_force for f in families], axis=0)
+    found = Eigenvalues(omega2, error, reason, shapes, force)
+    return found, np.where(bad[:, None], np.nan, np.concatenate(shear, axis=1))
 
 
 def _of_modes(found: Eigenvalues) -> dict[str, Array]:

@@ -9,7 +9,7 @@ from antinode.arrays import Integers
 from antinode.modes.batch import REASONS
 from antinode.vehicle.refusals import CAVITATION, EXTRA_DRAG, FINS, NOT_FINITE, OUT_OF_RANGE
 
-PAST_BUCKLING, BEYOND_LIMITS, NO_BEAM = 6, 15, 16
+PAST_BUCKLING, BEYOND_LIMITS, NO_BEAM, NOT_FOUND = 6, 15, 16, 17
 WHY: dict[int, str] = {
     **dict(enumerate(REASONS)),
     0: "solved",
@@ -21,6 +21,7 @@ WHY: dict[int, str] = {
     NOT_FINITE: "the loads are too large or too small for numbers",
     BEYOND_LIMITS: "the axial force is out of all proportion to the bending stiffness",
     NO_BEAM: "the case has no loads or no beam",
+    NOT_FOUND: "the modes of a family could not be found",
 }
 """What the reason codes mean; past buckling is an answer, all others but 0 are failures."""
 

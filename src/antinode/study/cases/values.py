@@ -83,6 +83,11 @@ class Cases:
         """Return one case with its own numbers, unchecked."""
         return case_of(self.study.case, self.numbers, i)
 
+    def structure(self, i: int) -> bytes:
+        """Return what stands for the body of a case, whatever its loads: equal for equal ones."""
+        numbers = (values[i] for keys, values in self.numbers.items() if _is_of_body(keys))
+        return b"".join(np.ascontiguousarray(v).tobytes() for v in numbers)
+
     def outside(self) -> npt.NDArray[np.bool_]:
         """Tell in which cases an input is outside the range that the case allows."""
         wrong = np.zeros(len(self), dtype=bool)
@@ -93,6 +98,13 @@ class Cases:
                 values = self.numbers.get(variable.keys, given)
                 wrong |= outside_range(self.study.case, variable.keys, values)
         return wrong
+
+
+def _is_of_body(keys: Keys) -> bool:
+    """Tell whether mass and stiffness depend on a number."""
+    if keys[0] == "vehicle":
+        return keys[1] not in ("cavitator", "fins")
+    return keys == ("condition", "burn_fraction")
 
 
 def case_of(case: Case, numbers: Mapping[Keys, Array], i: int) -> Case:

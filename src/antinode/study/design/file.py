@@ -47,6 +47,11 @@ LOAD_OUTPUTS = {
 MODE_OUTPUTS = {
     "frequency_hz": ("Hz", "natural frequency; NaN where divergent or not solved"),
     "error_hz": ("Hz", "the frequency lies within this of frequency_hz"),
+    "model_error": (
+        "1",
+        "first-order relative effect of shear and rotary inertia, which the model leaves out; "
+        "from the shapes of some cases of each chunk",
+    ),
     "omega2": ("rad^2/s^2", "eigenvalue"),
     "growth_rate_per_s": ("1/s", "growth rate of a divergent mode; NaN where omega2 >= 0"),
 }
@@ -54,6 +59,7 @@ MODE_OUTPUTS = {
 OutputName = Literal[
     "frequency_hz",
     "error_hz",
+    "model_error",
     "omega2",
     "growth_rate_per_s",
     "sigma",
@@ -211,7 +217,9 @@ class _Choices(Frozen):
     inputs: tuple[StudyInput, ...] = Field(default=(), max_length=1000, description="what varies")
     design: Design = Field(default=Design(), description="how the inputs vary together")
     outputs: tuple[OutputName, ...] = Field(
-        default=("frequency_hz", "error_hz"), min_length=1, description="what is kept of every case"
+        default=("frequency_hz", "error_hz", "model_error"),
+        min_length=1,
+        description="what is kept of every case",
     )
     solve: StudySolve = Field(default=StudySolve(), description="what to solve, and how well")
     run: Run = Field(default=Run(), description="how the work is divided")

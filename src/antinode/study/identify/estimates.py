@@ -26,6 +26,7 @@ from .unknowns import Unknowns
 Flags = npt.NDArray[np.bool_]
 _NEAR_BOUND = 1e-6  # sizes
 _OPEN = 1e-9  # of the largest singular value: below, nothing determines a direction
+_LEVER = 1e-6  # of a frequency's weight that does not determine parameters, at the least
 _PART = 0.35  # of the largest part of a direction, to be named
 STRONG = 0.95
 
@@ -108,6 +109,18 @@ class Estimates:
         data = self.jacobian[:, self._free]
         used = float(np.sum((data @ self._inverse[0]) * data))
         return max(len(self.residuals) - used, 0.0)
+
+    def without(self, left_out: Flags) -> float:
+        """Return by how much the sum of squares would fall without some frequencies.
+
+        Priors included, to first order; frequencies that alone determine something take nothing
+        along but what they add.
+        """
+        J, r = self.jacobian[left_out][:, self._free], self.residuals[left_out]
+        kept = np.eye(len(r)) - J @ self._inverse[0] @ J.T
+        size, basis = np.linalg.eigh((kept + kept.T) / 2)
+        parts = basis.T @ r
+        return float(np.sum(parts**2 / np.maximum(size, _LEVER)))
 
     @cached_property
     def covariance(self) -> Array:

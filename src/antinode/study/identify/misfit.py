@@ -14,6 +14,7 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.families import FamilyName
+from antinode.beam.limits import check_limits
 from antinode.errors import AntinodeError
 from antinode.modes.hertz import signed_hertz, signed_hertz_slope
 from antinode.study.eigenvalues import CaseEigenvalues, eigenvalues_of
@@ -85,8 +86,10 @@ class Misfit:
         AntinodeError
             If a row cannot be computed.
         """
-        wanted = [row.wanted for row in self.rows]
-        solved = eigenvalues_of(self.cases(vector), wanted, self.refinement)
+        wanted, cases = [row.wanted for row in self.rows], self.cases(vector)
+        for case in cases:
+            check_limits(case.beam())
+        solved = eigenvalues_of(cases, wanted, self.refinement)
         pairings = tuple(
             {family: pair(data, one.modes[family]) for family, data in row.families.items()}
             for row, one in zip(self.rows, solved, strict=True)

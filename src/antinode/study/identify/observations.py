@@ -15,6 +15,7 @@ import numpy as np
 
 from antinode.arrays import Array, Integers
 from antinode.beam.families import BENDING, LONGITUDINAL, FamilyName
+from antinode.beam.limits import check_limits
 from antinode.errors import AntinodeError, InputError
 from antinode.inputs.explain import validate
 from antinode.text import nearest
@@ -223,10 +224,10 @@ def _likeness(shape: ShapeRow, modes: ChainModes) -> Array:
 
 
 def check_start(rows: Sequence[RowData], cases: Sequence[Case]) -> None:
-    """Raise InputError, naming the row, if the loads of a row cannot be computed at the start."""
+    """Raise InputError, naming the row, if a row has no loads or no beam at the start."""
     for number, case in enumerate(cases, 1):
         try:
-            case.loads  # noqa: B018
+            check_limits(case.beam())
         except AntinodeError as error:
             raise type(error)(f"observations, row {number}: {error}") from error
     for number, (row, case) in enumerate(zip(rows, cases, strict=True), 1):

@@ -69,6 +69,11 @@ class Unknown(NamedTuple):
         """Return the value that an entry of the vector stands for."""
         return math.exp(self.size * entry) if self.log else self.size * entry
 
+    def prior_distance(self, value: float) -> float:
+        """Return how far a value is from the prior, in standard deviations."""
+        apart = math.log(value / self.prior_mean) if self.lognormal else value - self.prior_mean
+        return apart / self.prior_sd
+
     def slope(self, entry: float) -> float:
         """Return the derivative of the value by the entry."""
         return self.size * (self.value(entry) if self.log else 1.0)
@@ -175,11 +180,7 @@ class Unknowns:
 
     def prior_residuals(self, vector: Array) -> Array:
         """Return distances from the priors in standard deviations, then those of smoothness."""
-        own = [
-            (math.log(value / item.prior_mean) if item.lognormal else value - item.prior_mean)
-            / item.prior_sd
-            for item, value in self._with_prior(vector)
-        ]
+        own = [item.prior_distance(value) for item, value in self.with_prior(vector)]
         smooth = [item.smoothing @ vector[item.entries] for item in self.columns]
         return np.concatenate([own, *smooth])
 
@@ -199,7 +200,8 @@ class Unknowns:
             block[:, column.entries] = column.smoothing
         return np.concatenate([matrix, *smooth])
 
-    def _with_prior(self, vector: Array) -> Iterator[tuple[Unknown, float]]:
+    def with_prior(self, vector: Array) -> Iterator[tuple[Unknown, float]]:
+        """Yield every unknown that has a prior, with its value."""
         for item, entry in zip(self.items, vector.tolist(), strict=True):
             if math.isfinite(item.prior_sd):
                 yield item, item.value(entry)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import math
-
 from .estimates import Estimates
 from .file import IdentificationProblem
 from .fit import Search
 from .result import Comparison
+from .suspects import far_from_priors, quality, spoiling_row
+from .unknowns import Unknown
+from .words import brief
 
 _POOR_MAC = 0.6
+_NAMED = 6
 
 
 def fit_warnings(
@@ -30,12 +32,17 @@ def fit_warnings(
         warnings.append(f"at a bound, without a standard deviation: {names}; widen the bounds?")
     if problem.fit.loss != "linear":
         warnings.append("standard deviations are those of least squares, not of a robust loss")
-    if estimates.known_noise and (ratio := _misfit_ratio(estimates)) > 1.5:
+    poor = estimates.known_noise and (fit := quality(estimates)).is_poor
+    if poor:
         warnings.append(
-            f"the frequencies differ by {ratio:.2g} times their standard deviations (rms): this is "
-            "no more than a local minimum (try more fit.starts), or the model or the standard "
-            "deviations are wrong; the intervals are too narrow"
+            f"the frequencies differ by {brief(fit.rms)} of their standard deviations (rms), where "
+            f"{brief(fit.expected)} would be expected: this is no more than a local minimum (try "
+            "more fit.starts), or the model, an observation or the standard deviations are wrong; "
+            "the intervals are too narrow"
         )
+    if poor or not estimates.known_noise:
+        warnings += _suspect_row(problem, estimates, comparisons)
+    warnings += _far_values(estimates)
     if not estimates.known_noise and estimates.freedoms < 1:
         warnings.append(
             "as many parameters as frequencies: the noise cannot be estimated, the standard "
@@ -52,6 +59,40 @@ def fit_warnings(
     return warnings
 
 
-def _misfit_ratio(estimates: Estimates) -> float:
-    r = estimates.residuals
-    return math.sqrt(float(r @ r) / max(estimates.freedoms, 1.0))
+def _suspect_row(
+    problem: IdentificationProblem, estimates: Estimates, comparisons: tuple[Comparison, ...]
+) -> list[str]:
+    """Name a row that alone spoils the fit; a robust loss has weighed it down already."""
+    found = spoiling_row(estimates, comparisons) if problem.fit.loss == "linear" else None
+    if found is None:
+        return []
+    worst, number = found.worst, f"row {found.worst.row}"
+    name = number if worst.label == number else f"{number} ({worst.label})"
+    return [
+        f"{name} alone spoils the fit: without it {found.share:.0%} of the sum of squares would be "
+        f"gone; {worst.family} {worst.number} is farthest off ({worst.observed_hz:.6g} Hz "
+        f"observed, {worst.fitted_hz:.6g} Hz fitted): check its frequencies and its condition, or "
+        "leave it out"
+    ]
+
+
+def _far_values(estimates: Estimates) -> list[str]:
+    """Name what ended far from its prior, the farthest first."""
+    found = sorted(far_from_priors(estimates), key=lambda each: -abs(each[2]))
+    if not found:
+        return []
+    told = "; ".join(_far_value(*each) for each in found[:_NAMED])
+    more = f"; and {len(found) - _NAMED} more" if len(found) > _NAMED else ""
+    return [
+        f"far from their priors: {told}{more}: the data contradict these priors, or the model "
+        "makes up for something else by such values"
+    ]
+
+
+def _far_value(item: Unknown, value: float, distance: float) -> str:
+    unit = f" {item.unit}" if item.unit else ""
+    sd = "sd of the logarithm" if item.lognormal else "sd"
+    return (
+        f"{item.label} = {value:.5g}{unit}, {abs(distance):.2g} standard deviations off "
+        f"({item.prior_mean:.5g}{unit}, {sd} {item.prior_sd:.3g})"
+    )

@@ -13,9 +13,10 @@ from rich.text import Text
 from antinode.errors import InputError
 from antinode.inputs.reading import read_toml
 from antinode.show.outcome import check_plot, draw, print_json
-from antinode.show.printing import new_table
+from antinode.show.printing import new_table, show_warnings
 from antinode.study.design.file import Study, StudyInput, load_study
 from antinode.study.progress import cases_progress, end_progress
+from antinode.study.sweep.report import shear_text, warning_texts
 from antinode.text import counted, short
 from antinode.vehicle.case import load_case
 
@@ -95,10 +96,10 @@ def show_sensitivity(out: Console, result: SensitivityResult) -> None:
         f"{counted(result.cases, 'case')}, {result.failed} failed",
         highlight=False,
     )
-    bands = new_table("mode", "nominal [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to")
+    bands = new_table("mode", "nominal [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to", "by shear")
     for m in result.modes:
         cells = (m.nominal, m.mean, m.sd, *m.band)
-        bands.add_row(m.name, *(f"{v:.5g}" for v in cells))
+        bands.add_row(m.name, *(f"{v:.5g}" for v in cells), shear_text(m.model_error))
     out.print(bands)
     table = new_table(
         "mode", "input", "total index", "+-", "first index", "+-", "% per %", left=(0, 1)
@@ -117,6 +118,7 @@ def show_sensitivity(out: Console, result: SensitivityResult) -> None:
                 f"{m.elasticity[k]:+.4f}" if np.isfinite(m.elasticity[k]) else "",
             )
     out.print(table)
+    show_warnings(out, warning_texts(result.warnings, result.cases))
 
 
 def tornado(result: SensitivityResult) -> Figure:

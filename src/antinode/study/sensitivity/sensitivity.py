@@ -8,7 +8,8 @@ the inputs. Local: derivatives at the case itself, from the mode shapes, in % pe
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,6 @@ from antinode.beam.families import FamilyName
 from antinode.errors import AntinodeError, ComputationError, InputError
 from antinode.modes.hertz import hertz
 from antinode.study.cases.chunks import mode_names
-from antinode.study.cases.reasons import failed
 from antinode.study.design.file import Study
 from antinode.study.design.points import Points, points_of
 from antinode.study.design.variables import Variable
@@ -51,6 +51,12 @@ class ModeSensitivity:
         Derivative at the case by each input [Hz for each SI unit]; NaN where there is none.
     elasticity : array
         The same in % per %.
+    model_error : float
+        The largest first-order effect of shear and rotary inertia among the cases, relative.
+    used : int
+        Samples that the indices are made of: those whose cases all have this frequency.
+    without : int
+        Cases without this frequency: the mode diverges, or the case failed.
     """
 
     name: str
@@ -61,6 +67,9 @@ class ModeSensitivity:
     indices: Indices
     slope: Array
     elasticity: Array
+    model_error: float
+    used: int
+    without: int
 
 
 @dataclass(frozen=True)
@@ -74,6 +83,9 @@ class SensitivityResult:
     modes : tuple of ModeSensitivity
     samples, cases, failed : int
         Samples of each arrangement; all cases; those of them that failed.
+    left_out, warnings : tuple of dict
+        Which samples have no frequency, and what the indices then mean; all that is warned of,
+        these included: `message`, `count`, `share` of all cases, `first_case`.
     """
 
     name: str
@@ -83,6 +95,8 @@ class SensitivityResult:
     samples: int
     cases: int
     failed: int
+    left_out: tuple[dict[str, Any], ...]
+    warnings: tuple[dict[str, Any], ...]
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain values for JSON."""
@@ -96,6 +110,7 @@ class SensitivityResult:
                 {"name": n, "unit": u} for n, u in zip(self.inputs, self.units, strict=True)
             ],
             "modes": [self._mode(m) for m in self.modes],
+            "warnings": list(self.warnings),
         }
 
     def _mode(self, m: ModeSensitivity) -> dict[str, Any]:
@@ -105,6 +120,9 @@ class SensitivityResult:
             "mean_hz": m.mean,
             "sd_hz": m.sd,
             "band_hz": list(m.band),
+            "model_error": m.model_error,
+            "samples_used": m.used,
+            "cases_without_frequency": m.without,
             "inputs": [
                 {
                     "name": name,
@@ -153,11 +171,11 @@ def sensitivity(
     if number < 8:
         raise InputError(f"{number} samples are too few; take 1024")
     design = study.design.model_copy(update={"kind": "saltelli", "number": number, "table": None})
-    outputs = tuple(dict.fromkeys(("frequency_hz", *study.outputs)))
+    outputs = tuple(dict.fromkeys(("frequency_hz", "model_error", *study.outputs)))
     made = study.model_copy(update={"design": design, "outputs": outputs})
     points = points_of(made)
     data = sweep(made, store, workers=workers, progress=progress)
-    hz, reason = np.asarray(data["frequency_hz"]), np.asarray(data["reason"])
+    hz, effect = np.asarray(data["frequency_hz"]), np.asarray(data["model_error"])
     known = np.isfinite(hz[: 2 * number]).all(axis=1).mean()
     if known < 0.5:
         raise ComputationError(
@@ -165,8 +183,10 @@ def sensitivity(
         )
     slopes = local_slopes(made, points)
     modes = [
-        _mode(points, name, hz[:, k], number, slopes) for k, name in enumerate(mode_names(made))
+        _mode(points, name, (hz[:, k], effect[:, k]), number, slopes)
+        for k, name in enumerate(mode_names(made))
     ]
+    left_out = tuple(_left_out(modes, hz, number))
     return SensitivityResult(
         name=study.name or study.case.vehicle.name,
         inputs=tuple(v.name for v in points.variables),
@@ -174,13 +194,41 @@ def sensitivity(
         modes=tuple(modes),
         samples=number,
         cases=points.cases,
-        failed=int(np.count_nonzero(failed(reason))),
+        failed=data.attrs["failed"],
+        left_out=left_out,
+        warnings=(*left_out, *data.attrs["warnings"]),
     )
 
 
+def _left_out(modes: list[ModeSensitivity], hz: Array, number: int) -> Iterator[dict[str, Any]]:
+    """Say which samples have no frequency, and what the indices then mean."""
+    for k, mode in enumerate(modes):
+        if not mode.without:
+            continue
+        yield {
+            "message": (
+                f"{mode.name} has no frequency in some cases (it diverges, or the case failed): "
+                "its mean, deviation and band are those of the samples that vibrate, its indices "
+                f"those of the {mode.used} of {number} samples all of whose cases do. On this "
+                "condition the inputs are not independent, and the indices are no shares of one "
+                "variance any more: narrow the distributions, or read them as a ranking"
+            ),
+            "count": mode.without,
+            "share": mode.without / len(hz),
+            "first_case": int(np.flatnonzero(~np.isfinite(hz[:, k]))[0]),
+        }
+
+
 def _mode(
-    points: Points, name: str, hz: Array, number: int, slopes: dict[str, tuple[float, Array]]
+    points: Points,
+    name: str,
+    solved: tuple[Array, Array],
+    number: int,
+    slopes: dict[str, tuple[float, Array]],
 ) -> ModeSensitivity:
+    """Evaluate one mode, from its frequencies and the effect of shear on them."""
+    hz, effect = solved
+    known = np.isfinite(hz)
     both = hz[: 2 * number]
     both = both[np.isfinite(both)]
     nominal, slope = slopes[name]
@@ -195,6 +243,9 @@ def _mode(
         indices=sobol_indices(hz, len(points.variables)),
         slope=slope,
         elasticity=slope * start / nominal,
+        model_error=max(effect[np.isfinite(effect)].tolist(), key=abs, default=math.nan),
+        used=int(np.count_nonzero(known.reshape(-1, number).all(axis=0))),
+        without=int(np.count_nonzero(~known)),
     )
 
 

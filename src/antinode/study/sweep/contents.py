@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Iterable
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,6 +13,7 @@ import numpy.typing as npt
 
 from antinode.study.cases.chunks import mode_names
 from antinode.study.cases.reasons import WHY, failed
+from antinode.study.cases.warned import counted_warnings, messages, type_of_bits
 from antinode.study.design.file import LOAD_OUTPUTS, MODE_OUTPUTS, Study
 from antinode.study.design.points import Points
 from antinode.vehicle.case import Case
@@ -20,10 +22,10 @@ from antinode.version import __version__
 if TYPE_CHECKING:
     import xarray
 
-FORMAT = 1
+FORMAT = 2
 TIMESTAMPS = ("created", "finished")
 """Attributes that differ from run to run."""
-TRACKED = ("tracked_mode", "tracked_mac", "tracked_frequency_hz")
+TRACKED = ("tracked_mode", "tracked_mac", "tracked_doubtful", "tracked_frequency_hz")
 """Outputs that are known after all cases."""
 
 
@@ -63,6 +65,7 @@ def outputs_of(points: Points) -> dict[str, Output]:
         for v in points.variables
     }
     found["reason"] = Output(("case",), (n,), "int16", _reason_attrs())
+    found["warned"] = Output(("case",), (n,), type_of_bits(study), _warned_attrs(study))
     for name in study.outputs:
         each = name in MODE_OUTPUTS
         unit, text = (MODE_OUTPUTS if each else LOAD_OUTPUTS)[name]
@@ -92,17 +95,29 @@ def _reason_attrs() -> dict[str, Any]:
     }
 
 
+def _warned_attrs(study: Study) -> dict[str, Any]:
+    texts = messages(study)
+    return {
+        "long_name": "what a case warns of, a bit for each sentence; 0 of cases that failed",
+        "flag_masks": [1 << k for k in range(len(texts))],
+        "flag_meanings": list(texts),
+    }
+
+
 def _tracked_variables(study: Study, n: int, modes: int) -> dict[str, Output]:
     points = study.tracking.points
     dims, shape = ("case", "track"), (n, modes)
     hz = {"units": "Hz", "long_name": "frequency of each tracked mode"}
     mac = {"units": "1", "long_name": "likeness with the neighbouring case (MAC)"}
+    limit = study.tracking.doubtful
+    doubt = {"long_name": f"1 where tracked_mac is below {limit:g}: it may be another mode"}
     mode = {"long_name": "index of the mode that a track is; -1 where the case failed"}
     form = {"units": "1", "long_name": "shape of each mode, of unit norm"}
     return {
         "shape": Output(("case", "mode", "point"), (n, modes, points), "float64", form),
         "tracked_mode": Output(dims, shape, "int16", mode),
         "tracked_mac": Output(dims, shape, "float64", mac),
+        "tracked_doubtful": Output(dims, shape, "int8", doubt),
         "tracked_frequency_hz": Output(dims, shape, "float64", hz),
     }
 
@@ -145,9 +160,34 @@ def attributes(points: Points) -> dict[str, Any]:
     }
 
 
-def final_attributes(reason: npt.NDArray[Any]) -> dict[str, Any]:
-    """Return what is known after all cases."""
-    return {"failed": int(np.count_nonzero(failed(reason))), "finished": _now()}
+def final_attributes(
+    points: Points,
+    reason: npt.NDArray[Any],
+    bits: Iterable[npt.NDArray[Any]],
+    doubtful: npt.NDArray[Any] | None,
+) -> dict[str, Any]:
+    """Return what is known after all cases: how many failed, and what they warn of.
+
+    Parameters
+    ----------
+    points : Points
+    reason : array of int, shape (cases,)
+    bits : iterable of array of int
+        The variable `warned`, one block after the other.
+    doubtful : array of int, shape (cases, tracks), or None
+        Which modes are doubtful, if they are tracked.
+    """
+    study, found = points.study, counted_warnings(messages(points.study), bits, points.cases)
+    if doubtful is not None:
+        told = (
+            "a mode is so unlike its neighbour (MAC below tracking.doubtful = "
+            f"{study.tracking.doubtful:g}) that the track may go on along another one: take more "
+            "values between them"
+        )
+        found += counted_warnings(
+            [told], [np.any(doubtful, axis=1) * np.ones(1, np.int8)], points.cases
+        )
+    return {"failed": int(np.count_nonzero(failed(reason))), "warnings": found, "finished": _now()}
 
 
 def _now() -> str:

@@ -56,6 +56,7 @@ def plot_sweep(study: Study, dataset: xarray.Dataset) -> Figure:
             _draw_mode(axes, x, hz[:, k], lines, colour, ordered=tracked)
             if below is not None:
                 _draw_mode(below, x, _change(hz[:, k]), lines, colour, ordered=True)
+        _mark_doubts(axes, dataset, x, hz, lines)
         _name_modes(axes, x, hz, [str(m) for m in dataset["mode"].values])
         _excitations(axes, study, x, hz, lines if tracked else [])
         _scale(axes, hz)
@@ -133,6 +134,32 @@ def _draw_mode(
             alpha=1.0 if number == 0 else 0.45,
             linewidth=1.6 if number == 0 else 0.9,
         )
+
+
+def _mark_doubts(
+    axes: Axes,
+    dataset: xarray.Dataset,
+    x: Array,
+    hz: Array,
+    lines: list[npt.NDArray[np.int64]],
+) -> None:
+    """Cross out where a tracked mode may have become another one."""
+    if "tracked_doubtful" not in dataset:
+        return
+    drawn = np.concatenate(lines)
+    case, track = np.nonzero(np.asarray(dataset["tracked_doubtful"])[drawn])
+    if not len(case):
+        return
+    axes.plot(
+        x[drawn[case]],
+        hz[drawn[case], track],
+        "x",
+        color="#111111",
+        markersize=6,
+        zorder=6,
+        label="shape unlike its neighbour's: the mode may be another",
+    )
+    axes.legend(loc="lower right", fontsize=7.5)
 
 
 def _name_modes(axes: Axes, x: Array, hz: Array, names: list[str]) -> None:

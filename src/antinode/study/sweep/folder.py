@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import xarray
 
 _KEYS = {
+    "store_format": "of another version of antinode",
     "antinode_version": "of another version of antinode",
     "case_hash": "of another case",
     "study_hash": "of another study",
@@ -123,7 +124,7 @@ def check_same(path: Path, attrs: Mapping[str, Any]) -> None:
         raise InputError(
             f"{path} exists already and is no store of a sweep; name another"
         ) from error
-    if found.get("store_format") != attrs["store_format"]:
+    if "store_format" not in found:
         raise InputError(f"{path} exists already and is no store of a sweep; name another")
     for key, words in _KEYS.items():
         if found.get(key) != attrs[key]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from rich.console import Console
@@ -11,8 +12,10 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
+from antinode.arrays import Array, Integers
 from antinode.errors import AntinodeError
-from antinode.show.printing import new_table
+from antinode.modes.warnings import shear_buckles
+from antinode.show.printing import new_table, percent, show_warnings
 from antinode.study.cases.reasons import PAST_BUCKLING, WHY, failed
 from antinode.study.cases.values import Cases
 from antinode.study.design.points import Points
@@ -25,7 +28,7 @@ _BLOCK = 100_000
 
 
 def summary(points: Points, dataset: xarray.Dataset) -> dict[str, Any]:
-    """Return what a sweep has found as plain values: ranges by mode, and failures by reason."""
+    """Return what a sweep has found as plain values: ranges by mode, failures, warnings."""
     reason = np.asarray(dataset["reason"])
     wrong = failed(reason)
     modes = [] if "frequency_hz" not in dataset else _ranges(dataset)
@@ -50,6 +53,7 @@ def summary(points: Points, dataset: xarray.Dataset) -> dict[str, Any]:
             for v in points.variables
         ],
         "modes": modes,
+        "warnings": list(dataset.attrs["warnings"]),
     }
 
 
@@ -59,31 +63,57 @@ def _range(values: xarray.DataArray) -> dict[str, float]:
 
 
 def _ranges(dataset: xarray.Dataset) -> list[dict[str, Any]]:
-    """Return least, mean and largest frequency of every mode, a block of cases at a time."""
-    hz, n = dataset["frequency_hz"], dataset.sizes["case"]
+    """Return what is known of every mode: its frequencies, and how far they may be off."""
     names = [str(name) for name in dataset["mode"].values]
-    least, largest = np.full(len(names), np.inf), np.full(len(names), -np.inf)
-    total, count = np.zeros(len(names)), np.zeros(len(names), dtype=np.int64)
-    for start in range(0, n, _BLOCK):
-        part = np.asarray(hz[start : start + _BLOCK])
+    hz, error, effect = (
+        _extent(dataset, name) for name in ("frequency_hz", "error_hz", "model_error")
+    )
+    return [
+        {
+            "name": name,
+            "cases": int(hz.number[k]),
+            "least_hz": _null(hz.least[k]),
+            "mean_hz": _null(hz.mean[k]),
+            "largest_hz": _null(hz.largest[k]),
+            "largest_error_hz": _null(error.largest[k]),
+            "largest_model_error": _null(_farther(effect.least[k], effect.largest[k])),
+        }
+        for k, name in enumerate(names)
+    ]
+
+
+class _Extent(NamedTuple):
+    """Of an output that has one number a mode; infinite or NaN where there is none, (modes,)."""
+
+    least: Array
+    mean: Array
+    largest: Array
+    number: Integers
+
+
+def _extent(dataset: xarray.Dataset, output: str) -> _Extent:
+    """Look through the cases, a block at a time."""
+    modes, n = dataset.sizes["mode"], dataset.sizes["case"]
+    least, largest = np.full(modes, np.inf), np.full(modes, -np.inf)
+    total, count = np.zeros(modes), np.zeros(modes, dtype=np.int64)
+    for start in range(0, n if output in dataset else 0, _BLOCK):
+        part = np.asarray(dataset[output][start : start + _BLOCK])
         known = np.isfinite(part)
         least = np.minimum(least, np.min(part, axis=0, where=known, initial=np.inf))
         largest = np.maximum(largest, np.max(part, axis=0, where=known, initial=-np.inf))
         total += np.sum(part, axis=0, where=known)
         count += known.sum(axis=0)
-    mean = total / np.maximum(count, 1)
-    columns = (least, mean, largest, count)
-    return [
-        {
-            "name": name,
-            "cases": int(k),
-            **dict(zip(_SHOWN, (float(v) if k else None for v in (a, b, c)), strict=True)),
-        }
-        for name, a, b, c, k in zip(names, *columns, strict=True)
-    ]
+    with np.errstate(invalid="ignore"):
+        return _Extent(least, total / count, largest, count)
 
 
-_SHOWN = ("least_hz", "mean_hz", "largest_hz")
+def _farther(low: float, high: float) -> float:
+    """Return the bound that is farther from zero."""
+    return low if abs(low) > abs(high) else high
+
+
+def _null(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
 
 
 def failure_text(points: Points, index: int) -> str:
@@ -104,7 +134,7 @@ def failure_text(points: Points, index: int) -> str:
 
 
 def show_sweep(out: Console, data: dict[str, Any], stored: str) -> None:
-    """Print the ranges of inputs and frequencies, and the failures."""
+    """Print the ranges of inputs and frequencies, failures and warnings."""
     solved = data["cases"] - data["failed"]
     out.print(
         f"[bold]{escape(data['name'])}[/bold]: {solved} of {counted(data['cases'], 'case')} solved"
@@ -122,6 +152,7 @@ def show_sweep(out: Console, data: dict[str, Any], stored: str) -> None:
             f"{counted(failure['cases'], 'case')} failed ({failure['code']}): {failure['reason']}"
         )
         out.print(Text(f"{text}; the first is case {failure['first_case']}, {failure['text']}"))
+    show_warnings(out, warning_texts(data["warnings"], data["cases"]))
 
 
 def _inputs_table(data: dict[str, Any]) -> Table:
@@ -133,8 +164,32 @@ def _inputs_table(data: dict[str, Any]) -> Table:
 
 
 def _modes_table(data: dict[str, Any]) -> Table:
-    table = new_table("mode", "cases", "least [Hz]", "mean [Hz]", "largest [Hz]")
+    headings = ("mode", "cases", "least [Hz]", "mean [Hz]", "largest [Hz]", "+- [Hz]", "by shear")
+    table = new_table(*headings)
     for m in data["modes"]:
-        cells = ["" if m[key] is None else f"{m[key]:.6g}" for key in _SHOWN]
-        table.add_row(m["name"], str(m["cases"]), *cells)
+        shown = ["" if m[key] is None else f"{m[key]:.6g}" for key in _RANGE]
+        error, shear = m["largest_error_hz"], m["largest_model_error"]
+        shown += ["" if error is None else f"{error:.1e}", shear_text(shear)]
+        table.add_row(m["name"], str(m["cases"]), *shown)
     return table
+
+
+def shear_text(effect: float | None) -> str:
+    """Write the largest effect of shear; one that leaves nothing of a frequency is no number."""
+    if effect is None or not np.isfinite(effect):
+        return ""
+    return "past buckling" if shear_buckles(effect) else percent(effect)
+
+
+_RANGE = ("least_hz", "mean_hz", "largest_hz")
+
+
+def warning_texts(warnings: Iterable[dict[str, Any]], cases: int) -> list[str]:
+    """Return counted warnings as sentences."""
+    return [f"{w['message']} ({_concerned(w, cases)})" for w in warnings]
+
+
+def _concerned(warning: dict[str, Any], cases: int) -> str:
+    if warning["count"] == cases:
+        return "every case"
+    return f"{warning['count']} of {cases} cases, first case {warning['first_case']}"

@@ -127,6 +127,12 @@ class Store:
         """Return a whole variable."""
         return np.asarray(self.group[name][:])
 
+    def blocks(self, name: str) -> Iterator[npt.NDArray[Any]]:
+        """Yield a variable chunk by chunk."""
+        for chunk in range(self.chunks):
+            start, stop = self._bounds(chunk)
+            yield np.asarray(self.group[name][start:stop])
+
     def _bounds(self, chunk: int) -> tuple[int, int]:
         return chunk * self.chunk, min(self.cases, (chunk + 1) * self.chunk)
 

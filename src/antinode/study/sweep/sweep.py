@@ -145,7 +145,9 @@ def _in_memory(
         name: (about[name].dims, arrays[name], about[name].attrs) for name in about
     }
     data.update(coordinates_of(points))
-    everything = attributes(points) | final_attributes(arrays["reason"])
+    everything = attributes(points) | final_attributes(
+        points, arrays["reason"], [arrays["warned"]], arrays.get("tracked_doubtful")
+    )
     return labelled(xarray.Dataset(data, attrs=everything))
 
 
@@ -183,7 +185,11 @@ def _into_store(
         if missing:
             wanted = ("reason", "shape", "frequency_hz") if after else ("reason",)
             whole = {name: store.read(name) for name in wanted if name in about}
-            store.finish(tracked(points, whole), final_attributes(whole["reason"]))
+            tracks = tracked(points, whole)
+            told = final_attributes(
+                points, whole["reason"], store.blocks("warned"), tracks.get("tracked_doubtful")
+            )
+            store.finish(tracks, told)
     return open_store(path)
 
 
@@ -217,5 +223,6 @@ def tracked(points: Points, arrays: Arrays) -> Arrays:
     return {
         "tracked_mode": found.mode.astype(np.int16),
         "tracked_mac": found.mac,
+        "tracked_doubtful": (found.mac < study.tracking.doubtful).astype(np.int8),
         "tracked_frequency_hz": np.where(found.mode >= 0, own, np.nan),
     }

@@ -37,7 +37,7 @@ def sweep_csv(dataset: xarray.Dataset) -> str:
 
 
 def without_lists(dataset: xarray.Dataset) -> xarray.Dataset:
-    """Return a Dataset whose attributes NetCDF can hold: lists of texts become JSON."""
+    """Return a Dataset whose attributes NetCDF can hold: lists of texts or tables as JSON."""
     plain = dataset.copy()
     plain.attrs = {k: _plain(v) for k, v in dataset.attrs.items()}
     for name in plain.variables:
@@ -46,5 +46,6 @@ def without_lists(dataset: xarray.Dataset) -> xarray.Dataset:
 
 
 def _plain(value: Any) -> Any:
-    texts = isinstance(value, list) and any(isinstance(v, str) for v in value)
+    texts = isinstance(value, list) and any(isinstance(v, str | dict) for v in value)
+    texts = texts or value == []
     return json.dumps(value) if texts else value

@@ -74,7 +74,7 @@ def test_the_dataset_says_what_it_is(case):
     assert dict(result.sizes) == {"case": 24, "mode": 4}
     assert list(result.mode.values) == [f"bending {k}" for k in range(1, 5)]
     for name in (*result.data_vars, "speed", "thrust"):
-        assert result[name].attrs.get("units") or name == "reason"
+        assert result[name].attrs.get("units") or name in ("reason", "warned")
     assert {"antinode_version", "case_hash", "study_hash", "seed", "tolerance"} <= set(result.attrs)
     other = sweep(study(case, MIXED + "figure.band = [1, 2]"))
     assert other.attrs["study_hash"] == result.attrs["study_hash"]

@@ -1,0 +1,148 @@
+"""What shear and rotary inertia would do to the bending frequencies of the cases of a chunk.
+
+To first order a frequency changes by ``-(R + S / omega^2) / 2`` of itself (`modes/shapes.py`), with
+
+    R = int m r^2 Y'^2 / int m Y^2,      S = int (EI)^2 Y'''^2 / (kGA) / int m Y^2.
+
+Shapes cost more than frequencies: they are computed for 16 cases, spread evenly over the mean of
+N/EI, and give weights for every interval of the stations. Between these cases the weights are
+interpolated; EI, EA, r and the mass are those of the case itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from antinode.arrays import Array, Integers
+from antinode.beam.beam import Beam
+from antinode.beam.families import FAMILIES, FamilyName
+from antinode.modes.backends import choose
+from antinode.modes.shapes import ModelErrorParts, model_error_parts
+from antinode.riccati.chain import Chain
+from antinode.vehicle.case import body_as_beam
+
+from .beams import CaseBeams
+from .bending import Eigenvalues, chain_of
+from .reasons import failed
+from .values import Cases
+
+_SAMPLE = 16
+_ENTRIES = 1_000_000  # of the weights that are held at once
+
+
+def model_errors(cases: Cases, beams: CaseBeams, family: FamilyName, found: Eigenvalues) -> Array:
+    """Return the first-order effect on every frequency of a family, relative, (cases, modes).
+
+    NaN where a mode diverges, and in families and cases that have none.
+    """
+    effect = np.full(found.omega2.shape, np.nan)
+    rows = np.flatnonzero(~failed(found.reason))
+    if not (FAMILIES[family].rotary and len(rows)):
+        return effect
+    bodies = _Bodies(cases, np.asarray(beams.scalars["mass"]))
+    load = found.net_force / bodies.column("bending_stiffness").mean(axis=1)
+    sample = _spread(rows, load)
+    weights = _weights(bodies, beams, sample, found.omega2)
+    wanted = max(1, _ENTRIES // weights[0, 0].size)
+    for some in np.array_split(rows, -(-len(rows) // wanted)):
+        own = _between(load[sample], weights, load[some]) * bodies.factors(some)
+        effect[some] = ModelErrorParts(*own.sum(axis=-1)).effect(found.omega2[some])
+    return effect
+
+
+def _spread(rows: Integers, load: Array) -> Integers:
+    """Return cases at even ranks of their loads, both ends included, in the order of these."""
+    order = np.asarray(rows[np.argsort(load[rows], kind="stable")])
+    if len(order) <= _SAMPLE:
+        return order
+    return np.asarray(order[np.linspace(0, len(order) - 1, _SAMPLE).round().astype(int)])
+
+
+def _between(at: Array, weights: Array, load: Array) -> Array:
+    """Interpolate weights (2, sample, modes, intervals) over the loads, which ascend."""
+    known = np.flatnonzero(np.isfinite(weights).all(axis=(0, 2, 3)))
+    if not len(known):
+        return np.full((2, len(load), *weights.shape[2:]), np.nan)
+    place = np.interp(load, at[known], np.arange(len(known)))
+    low = np.minimum(place.astype(int), max(len(known) - 2, 0))
+    high = np.minimum(low + 1, len(known) - 1)
+    part = (place - low)[:, None, None]
+    return np.asarray((1 - part) * weights[:, known[low]] + part * weights[:, known[high]])
+
+
+@dataclass(frozen=True)
+class _Bodies:
+    """What R and S go with, of all cases: one value for each interval of the stations.
+
+    Attributes
+    ----------
+    cases : Cases
+    mass : array, shape (cases,)
+        Of the whole body [kg].
+    """
+
+    cases: Cases
+    mass: Array
+
+    @property
+    def x(self) -> Array:
+        """The stations [m]."""
+        return self.cases.study.case.vehicle.stations.x
+
+    def column(self, name: str) -> Array:
+        """Return the means of a column over the intervals, shape (cases, intervals)."""
+        vehicle = self.cases.study.case.vehicle
+        whole = self.cases.numbers.get(("vehicle", "stations", name))
+        if whole is None:
+            own = getattr(vehicle.stations, name)
+            whole = np.broadcast_to(own, (len(self.cases), len(own)))
+        stepped = vehicle.interpolation == "step"
+        return np.asarray(whole[:, :-1] if stepped else (whole[:, :-1] + whole[:, 1:]) / 2)
+
+    def factors(self, rows: Integers) -> Array:
+        """Return what the weights of some cases are multiplied by, (2, rows, 1, intervals)."""
+        EI, EA = (self.column(name)[rows] for name in ("bending_stiffness", "axial_stiffness"))
+        stations = self.cases.study.case.vehicle.stations
+        given = stations.radius_of_gyration is not None or stations.wall is not None
+        rotary = np.ones(EI.shape) if given else EI / EA
+        return np.stack([rotary, EI**2 / EA / self.mass[rows, None]])[:, :, None]
+
+    def body(self, row: int) -> Beam:
+        """Return the body of a case as a beam, without its loads."""
+        case = self.cases.case(row)
+        burnt = case.condition.burn_fraction
+        return body_as_beam(case.vehicle, case.vehicle.mass_distribution(burnt).x, burnt)
+
+
+def _weights(bodies: _Bodies, beams: CaseBeams, sample: Integers, omega2: Array) -> Array:
+    """Return R and S of some cases by interval over their factors, (2, sample, modes, intervals).
+
+    NaN where the shapes fail.
+    """
+    found = np.full((2, len(sample), omega2.shape[1], len(bodies.x) - 1), np.nan)
+    place = {row: at for at, row in enumerate(sample.tolist())}
+    known: dict[bytes, Beam] = {}
+    for chains in beams.chains(sample, 1):
+        for k, row in enumerate(chains.rows.tolist()):
+            structure = bodies.cases.structure(row)
+            if structure not in known:
+                known[structure] = bodies.body(row)
+            found[:, place[row]] = _parts(
+                known[structure], chain_of(chains, k), omega2[row], bodies.x
+            )
+    return found / bodies.factors(sample)
+
+
+def _parts(body: Beam, chain: Chain, omega2: Array, stations: Array) -> Array:
+    """Return R and S of one case by interval of the stations, shape (2, modes, intervals)."""
+    compiled = choose("numba")
+    try:
+        states = compiled.mode_states(chain, omega2, np.ones(len(omega2), dtype=np.int64))
+        parts = model_error_parts(body, chain, compiled.mode_energies(chain, states, omega2))
+    except (ArithmeticError, ValueError):
+        return np.full((2, len(omega2), len(stations) - 1), np.nan)
+    middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2
+    first = np.searchsorted(middle, stations[:-1])
+    return np.stack([np.add.reduceat(part, first, axis=0).T for part in parts])

@@ -1,0 +1,107 @@
+"""What each case warns of: a bit for each sentence, and how many cases it concerns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.arrays import Array, Integers
+from antinode.modes.warnings import (
+    MODEL_LIMIT,
+    PAST_BUCKLING,
+    ROTATION_DIVERGES,
+    SHEAR_BUCKLES,
+    SHEAR_LOWERS,
+    shear_buckles,
+)
+from antinode.study.design.file import Study
+
+from .beams import load_messages
+from .reasons import failed
+
+_OF_MODES = (
+    f"elastic modes with omega^2 < 0: {PAST_BUCKLING}",
+    ROTATION_DIVERGES,
+    f"some modes: {SHEAR_LOWERS}",
+    f"some modes: {SHEAR_BUCKLES}",
+)
+
+
+_LAST = 62
+"""The highest bit; sentences beyond it share it (of a vehicle with some fifty sets of fins)."""
+
+
+def messages(study: Study) -> tuple[str, ...]:
+    """Return what a case of a study can warn of, in the order of the bits."""
+    texts = (*_OF_MODES, *load_messages(study.case))
+    return (*texts[:_LAST], "; or ".join(texts[_LAST:])) if len(texts) > _LAST else texts
+
+
+def type_of_bits(study: Study) -> str:
+    """Return the smallest type that has a bit for each message."""
+    return "int32" if len(messages(study)) < 32 else "int64"
+
+
+def warned(
+    reason: Integers,
+    omega2: Array,
+    net_force: Array,
+    model_error: Array,
+    doubts: npt.NDArray[np.bool_],
+) -> Integers:
+    """Return the bits of every case.
+
+    Parameters
+    ----------
+    reason : array of int, shape (cases,)
+        Cases that failed warn of nothing.
+    omega2, model_error : array, shape (cases, modes)
+    net_force : array, shape (cases,)
+        Integral of N along the axis [N m].
+    doubts : array of bool, shape (warnings, cases)
+        About the loads.
+    """
+    with np.errstate(invalid="ignore"):
+        told = (
+            np.any(omega2 < 0, axis=1),
+            net_force > 0,
+            np.any(np.abs(model_error) > MODEL_LIMIT, axis=1),
+            np.any(shear_buckles(model_error), axis=1),
+        )
+    bits = np.zeros(len(reason), dtype=np.int64)
+    for k, each in enumerate((*told, *doubts)):
+        bits |= each * np.int64(1 << min(k, _LAST))
+    return np.where(failed(reason), 0, bits)
+
+
+def counted_warnings(
+    texts: Iterable[str], blocks: Iterable[npt.NDArray[Any]], cases: int
+) -> list[dict[str, Any]]:
+    """Count the cases that each sentence concerns; sentences that concern none are left out.
+
+    Parameters
+    ----------
+    texts : iterable of str
+        In the order of the bits.
+    blocks : iterable of array of int
+        The bits of all cases, one block after the other.
+    cases : int
+        Number of all cases, those that failed included.
+    """
+    texts = tuple(texts)
+    count, first, start = [0] * len(texts), [-1] * len(texts), 0
+    for bits in blocks:
+        for k in range(len(texts)):
+            concerned = np.flatnonzero(bits & (1 << k))
+            if len(concerned) and first[k] < 0:
+                first[k] = start + int(concerned[0])
+            count[k] += len(concerned)
+        start += len(bits)
+    return [
+        {"message": text, "count": n, "share": n / cases, "first_case": at}
+        for text, n, at in zip(texts, count, first, strict=True)
+        if n
+    ]
