@@ -71,10 +71,11 @@ class BeamEnds(Frozen):
         None, description="how the right end is held axially; fixed if clamped or pinned, else free"
     )
     left_torsion: TorsionEnd | None = Field(
-        None, description="whether the left end may turn about the axis; fixed if clamped, else free"
+        None,
+        description="how the left end is held about the axis; fixed if clamped, else free",
     )
     right_torsion: TorsionEnd | None = Field(
-        None, description="the same of the right end; fixed if clamped, else free"
+        None, description="how the right end is held about the axis; fixed if clamped, else free"
     )
 
 
