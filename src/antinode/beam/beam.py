@@ -31,7 +31,7 @@ from .attachments import (
     check_attachments,
     gather,
 )
-from .checks import TABLES, check, given
+from .checks import LOGARITHMIC, TABLES, check, given
 from .ends import FREE, Ends
 from .families import FAMILIES, FamilyName, tells
 from .mass import MassDistribution, mass_within
@@ -57,8 +57,8 @@ class Beam:
         a [m/s^2] adds ``a * (mass left of x)`` to N: the inertia of a body that accelerates
         towards -x, or weight that acts towards +x.
     interpolation : {"step", "linear", "log"}
-        How m, EI, EA, GJ and rho I_p vary between the two values of an interval ("step": they are
-        equal).
+        How m, EI, EA and GJ vary between the two values of an interval ("step": they are equal);
+        the others vary linearly.
     ends : Ends
     radius_of_gyration : array, shape (n, 2), optional
         Of the cross-section [m], for the estimate of shear and rotary inertia only; by default
@@ -220,13 +220,10 @@ class Beam:
         k = np.clip(np.searchsorted(self.x, (x[1:] + x[:-1]) / 2) - 1, 0, len(self.x) - 2)
         size = np.diff(self.x)[k]
         start, end = (x[:-1] - self.x[k]) / size, (x[1:] - self.x[k]) / size
-        linear = replace(self, interpolation="linear")
         tables: dict[str, Any] = {}
         for name in TABLES:
-            values = getattr(self, name)
-            how = linear if name == "axial_force" else self
-            if values is not None:
-                sides = (how.at(values, k, start), how.at(values, k, end))
+            if getattr(self, name) is not None:
+                sides = (self.column_at(name, k, start), self.column_at(name, k, end))
                 tables[name] = np.stack(sides, axis=1)
         return replace(self, x=x, **tables)
 
@@ -252,6 +249,14 @@ class Beam:
         """Interpolate a property inside intervals, at fractions 0 ... 1 of their lengths."""
         a, b = values[interval, 0], values[interval, 1]
         return np.asarray(interpolated(a, b, fraction, self.interpolation))
+
+    def column_at(self, name: str, interval: Integers, fraction: Array) -> Array:
+        """Return a table's values inside intervals; what no logarithm is for runs straight."""
+        values = getattr(self, name)
+        if name in LOGARITHMIC:
+            return self.at(values, interval, fraction)
+        a, b = values[interval, 0], values[interval, 1]
+        return np.asarray(a + (b - a) * fraction)
 
     def axial_force_at(self, interval: Integers, fraction: Array) -> Array:
         """Return N [N] inside intervals, at fractions 0 ... 1 of their lengths."""
@@ -354,10 +359,10 @@ class Beam:
         """Return a column of the chain: means, of the inverse where it is a stiffness."""
         if column == "axial_force":
             return average(self.axial_force_at)
-        table = given(self, family, column)
+        name = FAMILIES[family].columns[column]
         if column == "stiffness":
-            return np.asarray(1.0 / average(lambda k, t: 1.0 / self.at(table, k, t)))
-        return average(lambda k, t: self.at(table, k, t))
+            return np.asarray(1.0 / average(lambda k, t: 1.0 / self.column_at(name, k, t)))
+        return average(lambda k, t: self.column_at(name, k, t))
 
     def _uniform_chain(self, family: FamilyName) -> Chain:
         """Return one segment for every interval: nothing varies in any."""

@@ -88,6 +88,9 @@ TABLES = (
     "polar_inertia_per_length",
 )
 
+LOGARITHMIC = ("mass_per_length", "bending_stiffness", "axial_stiffness", "torsional_stiffness")
+"""Those that vary exponentially where the interpolation is "log"; the others vary linearly."""
+
 
 def given(beam: Beam, name: FamilyName, column: str) -> Array:
     """Return the beam's table for a column of a family's law, or say that it is missing."""

@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from antinode.arrays import Array, Interpolation
 from antinode.errors import InputError
-from antinode.inputs.columns import Column, with_closed_stations
+from antinode.inputs.columns import Column, both_or_neither, with_closed_stations
 from antinode.inputs.explain import validate
 from antinode.inputs.override import override
 from antinode.inputs.reading import Tables, naming, read_tables
@@ -21,7 +21,7 @@ from antinode.text import counted
 
 from .axial import apply_loads
 from .beam import Beam
-from .ends import AxialEnd, End, Ends
+from .ends import AxialEnd, End, Ends, TorsionEnd
 from .limits import check_limits
 from .parts import MassTable, check_on_body
 from .station_csv import without_hull
@@ -34,6 +34,8 @@ COLUMNS = (
     "axial_stiffness",
     "axial_force",
     "radius_of_gyration",
+    "torsional_stiffness",
+    "polar_inertia_per_length",
 )
 
 
@@ -68,6 +70,13 @@ class BeamEnds(Frozen):
     right_axial: AxialEnd | None = Field(
         None, description="how the right end is held axially; fixed if clamped or pinned, else free"
     )
+    left_torsion: TorsionEnd | None = Field(
+        None,
+        description="how the left end is held about the axis; fixed if clamped, else free",
+    )
+    right_torsion: TorsionEnd | None = Field(
+        None, description="how the right end is held about the axis; fixed if clamped, else free"
+    )
 
 
 class BeamStations(Frozen):
@@ -89,6 +98,12 @@ class BeamStations(Frozen):
         description="of the cross-section [m], for the effect of rotary inertia; default "
         "sqrt(EI/EA)",
     )
+    torsional_stiffness: Annotated[Array, Column("N m^2")] | None = Field(
+        None, description="GJ [N m^2]; without it there are no torsion modes"
+    )
+    polar_inertia_per_length: Annotated[Array, Column("kg m")] | None = Field(
+        None, description="rho I_p, about the axis [kg m]; beside torsional_stiffness"
+    )
 
     @model_validator(mode="after")
     def _check_table(self) -> Self:
@@ -97,6 +112,7 @@ class BeamStations(Frozen):
             column = getattr(self, name)
             if column is not None:
                 _check_column(name, column, len(self.x))
+        both_or_neither(self, "torsional_stiffness", "polar_inertia_per_length")
         return self
 
 
@@ -186,6 +202,8 @@ class BeamFile(Frozen):
             interpolation=table.interpolation,
             ends=Ends(**table.ends.model_dump()),
             radius_of_gyration=stations.radius_of_gyration,
+            torsional_stiffness=stations.torsional_stiffness,
+            polar_inertia_per_length=stations.polar_inertia_per_length,
             name=table.name,
         ).with_attachments(*table.attachments())
         for part in table.masses:

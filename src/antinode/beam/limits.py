@@ -16,6 +16,7 @@ from antinode.errors import AntinodeError, ComputationError, InputError
 
 from .attachments import PointMass
 from .beam import Beam
+from .families import FAMILIES
 
 LENGTHS = 1e-9, 1e9
 """Smallest and largest length of a beam, largest position [m]."""
@@ -54,9 +55,9 @@ def check_limits(beam: Beam) -> None:
             f"x runs from {beam.x[0]:g} to {beam.x[-1]:g} m; a beam may be {low:g} to {high:g} m "
             "long: check the unit of x"
         )
-    for name in ("mass_per_length", "bending_stiffness", "axial_stiffness"):
+    for name in dict.fromkeys(table for family in FAMILIES.values() for table in family.tables):
         values = getattr(beam, name)
-        if values is not None:
+        if values is not None and name != "axial_force":
             _check_property(name, values)
     _check_point_masses(beam)
     _check_axial_force(beam)

@@ -8,7 +8,6 @@ import numpy as np
 
 from antinode.arrays import Array, Integers
 
-from .checks import given
 from .families import FAMILIES, FamilyName
 
 if TYPE_CHECKING:
@@ -45,12 +44,12 @@ def coarsest_steps(beam: Beam, family: FamilyName) -> tuple[Integers, Array, Arr
     """
     interval = np.arange(len(beam.x) - 1)
     start, size = np.zeros(len(interval)), np.ones(len(interval))
-    tables = [given(beam, family, column) for column in ("mass", "stiffness")]
-    varies, power = beam.varies(family), FAMILIES[family].law.power
+    columns, power = FAMILIES[family].columns, FAMILIES[family].law.power
+    varies = beam.varies(family)
     for _ in range(_MOST_HALVINGS):
         ends = [
-            [beam.at(table, interval, start + side * size) for side in (0.0, 1.0)]
-            for table in tables
+            [beam.column_at(columns[name], interval, start + side * size) for side in (0.0, 1.0)]
+            for name in ("mass", "stiffness")
         ]
         steepest = np.max([np.maximum(a / b, b / a) for a, b in ends], axis=0)
         mass, stiffness = (np.sqrt(a * b) for a, b in ends)

@@ -24,10 +24,13 @@ class PointMassTable(Frozen):
         0.0, description="about its own centre [kg m^2]"
     )
     offset: Length = Field(0.0, description="of its centre along +x from the station [m]")
+    polar_inertia: Annotated[float, Unit("kg m^2"), Field(ge=0)] = Field(
+        0.0, description="about the axis of the beam, for torsion [kg m^2]"
+    )
 
     def attachment(self) -> PointMass:
         """Return it as the beam wants it."""
-        return PointMass(self.x, self.mass, self.rotary_inertia, self.offset)
+        return PointMass(**vars(self))
 
 
 class SpringTable(Frozen):
@@ -39,18 +42,22 @@ class SpringTable(Frozen):
     translational: AxialStiffness = Field(0.0, description="lateral [N/m]; inf holds it")
     rotational: RotationalStiffness = Field(0.0, description="[N m/rad]; inf holds the slope")
     axial: AxialStiffness = Field(0.0, description="along the axis [N/m]; inf holds it")
+    torsional: RotationalStiffness = Field(
+        0.0, description="about the axis [N m/rad]; inf holds it"
+    )
 
     @model_validator(mode="after")
     def _check_any(self) -> Self:
-        if not (self.translational or self.rotational or self.axial):
+        if not (self.translational or self.rotational or self.axial or self.torsional):
             raise ValueError(
-                "all stiffnesses are 0; give translational, rotational or axial, inf for a support"
+                "all stiffnesses are 0; give translational, rotational, axial or torsional, inf "
+                "for a support"
             )
         return self
 
     def attachment(self) -> Spring:
         """Return it as the beam wants it."""
-        return Spring(self.x, self.translational, self.rotational, self.axial)
+        return Spring(**vars(self))
 
 
 class JointTable(Frozen):
@@ -63,10 +70,13 @@ class JointTable(Frozen):
     axial: Annotated[float, Unit("m/N"), Field(ge=0)] = Field(
         0.0, description="compliance along the axis [m/N]"
     )
+    torsional: Annotated[float, Unit("rad/(N m)"), Field(ge=0)] = Field(
+        0.0, description="compliance about the axis: change of rotation over torque [rad/(N m)]"
+    )
 
     def attachment(self) -> Joint:
         """Return it as the beam wants it."""
-        return Joint(self.x, self.rotational, self.axial)
+        return Joint(**vars(self))
 
 
 class PointForceTable(Frozen):

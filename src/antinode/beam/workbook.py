@@ -21,14 +21,26 @@ from .station_csv import HULL, beam_table
 MOST_BYTES = 20_000_000
 _MOST_COLUMNS = 100
 _MOST_CELLS = 1_000_000
-ENDS = ("left", "right", "left_axial", "right_axial")
+ENDS = ("left", "right", "left_axial", "right_axial", "left_torsion", "right_torsion")
 LOADS = ("gravity", "offset_weight")
 KEYS = ("name", "interpolation", *ENDS, *LOADS)
 """Keys of the sheet `beam`."""
 ATTACHED = {
-    "point_masses": {"x": "m", "mass": "kg", "rotary_inertia": "kg m^2", "offset": "m"},
-    "springs": {"x": "m", "translational": "N/m", "rotational": "N m/rad", "axial": "N/m"},
-    "joints": {"x": "m", "rotational": "rad/(N m)", "axial": "m/N"},
+    "point_masses": {
+        "x": "m",
+        "mass": "kg",
+        "rotary_inertia": "kg m^2",
+        "offset": "m",
+        "polar_inertia": "kg m^2",
+    },
+    "springs": {
+        "x": "m",
+        "translational": "N/m",
+        "rotational": "N m/rad",
+        "axial": "N/m",
+        "torsional": "N m/rad",
+    },
+    "joints": {"x": "m", "rotational": "rad/(N m)", "axial": "m/N", "torsional": "rad/(N m)"},
     "point_forces": {"x": "m", "force": "N"},
 }
 """Sheets of attachments and forces: columns with their units."""

@@ -9,13 +9,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from antinode.beam.families import BENDING, LONGITUDINAL
+from antinode.beam.families import FAMILIES
 from antinode.inputs.toml_writing import toml_text
 from antinode.show.writing import to_json, write_text, write_whole
 
 from .formats import Format
 
-FAMILIES = (BENDING, LONGITUDINAL)
 _HEAD = """\
 # Observations for an identification file, beside its case and what of it may change:
 # put them into it, or name a .csv of them with observations = "FILE.csv".

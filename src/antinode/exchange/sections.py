@@ -37,8 +37,9 @@ class Kind:
         Columns, lower case.
     stiffness : tuple of str
         In plane 1 and in plane 2.
-    axial, inertia : str or tuple
-        Axial stiffness, and mass moments per length in the two planes, where there are any.
+    axial, torsion, inertia : str or tuple
+        Axial and torsional stiffness, and mass moments per length in the two planes, where there
+        are any.
     factors : dict
         Factors by column: what stands on a line above the table.
     count : str
@@ -52,6 +53,7 @@ class Kind:
     mass: str
     stiffness: tuple[str, str]
     axial: str = ""
+    torsion: str = ""
     inertia: tuple[str, str] | tuple[()] = ()
     factors: Mapping[str, str] | None = None
     count: str = ""
@@ -65,6 +67,7 @@ KINDS = (
         "tmassden",
         ("twfastif", "twssstif"),
         axial="tweastif",
+        torsion="twgjstif",
         inertia=("twfainer", "twssiner"),
         factors={"tmassden": "adjtwma", "twfastif": "adjfast", "twssstif": "adjssst"},
         count="ntwinpst",
@@ -76,6 +79,7 @@ KINDS = (
         "bmassden",
         ("flpstff", "edgstff"),
         axial="eastff",
+        torsion="gjstff",
         inertia=("flpiner", "edginer"),
         factors={"bmassden": "adjblms", "flpstff": "adjflst", "edgstff": "adjedst"},
         count="nblinpst",
@@ -90,6 +94,7 @@ KINDS = (
         "mass_den",
         ("flp_stff", "edge_stff"),
         axial="axial_stff",
+        torsion="tor_stff",
         inertia=("flp_iner", "edge_iner"),
         count="n_secs",
         unmodelled=("str_tw", "tw_iner", "tor_stff", "cg_offst", "sc_offst", "tc_offst"),
@@ -142,6 +147,7 @@ def read_sections(
     }
     if kind.axial in columns:
         stations["axial_stiffness"] = columns[kind.axial].tolist()
+    stations |= (torsion := _torsion(kind, columns))
     left: list[str] = []
     if kind.inertia and np.any(inertia := columns.get(kind.inertia[plane - 1], np.zeros(1))):
         if np.all(inertia > 0) and np.all(columns[kind.mass] > 0):
@@ -155,7 +161,19 @@ def read_sections(
     }
     if masses := _concentrated(lines, end, kind, path):
         table["point_masses"] = [{"x": at * length, "mass": mass} for at, mass in masses]
-    return table, _notes(kind, columns, plane, left)
+    return table, _notes(kind, columns, plane, left, bool(torsion))
+
+
+def _torsion(kind: Kind, columns: Mapping[str, Array]) -> dict[str, list[float]]:
+    """Return GJ, and the polar inertia as the sum of both mass moments, where all are given."""
+    needed = (kind.torsion, *kind.inertia)
+    if not all(name in columns and np.all(columns[name] > 0) for name in needed):
+        return {}
+    polar = np.sum([columns[name] for name in kind.inertia], axis=0)
+    return {
+        "torsional_stiffness": columns[kind.torsion].tolist(),
+        "polar_inertia_per_length": polar.tolist(),
+    }
 
 
 def _check_fractions(at: Array, where: str) -> None:
@@ -209,9 +227,10 @@ def _check_count(rows: int, wanted: float, where: str) -> None:
 
 
 def _notes(
-    kind: Kind, columns: Mapping[str, Array], plane: int, more: Sequence[str]
+    kind: Kind, columns: Mapping[str, Array], plane: int, more: Sequence[str], torsion: bool
 ) -> tuple[str, ...]:
     left = [name for name in kind.unmodelled if name in columns and np.any(columns[name])]
+    left = [name for name in left if not (torsion and name == kind.torsion)]
     left += more
     notes = [f"{kind.name}, {kind.stiffness[plane - 1]}: plane {plane} of bending (--plane)"]
     if left:
@@ -279,6 +298,7 @@ def _factors(
     """Return the factors to SI from the line of units."""
     si = {kind.mass: UNITS["mass"], **dict.fromkeys(kind.stiffness, UNITS["stiffness"])}
     si |= {kind.axial: UNITS["axial"], **dict.fromkeys(kind.inertia, UNITS["inertia"])}
+    si[kind.torsion] = UNITS["stiffness"]
     factors = {}
     for name, unit in zip(names, units, strict=False):
         if name in si:

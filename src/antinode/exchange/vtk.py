@@ -1,8 +1,8 @@
 """Modes for ParaView: VTK XML (.vtu) with the beam as lines along x.
 
 Every mode is a vector in the point data, (0, Y, 0) or (X, 0, 0) [m], which the filter "Warp By
-Vector" bends the beam with; moments and forces are scalars beside it. The properties of the beam
-are cell data.
+Vector" bends the beam with, or a rotation (phi, 0, 0) [rad]; moments and forces are scalars beside
+it. The properties of the beam are cell data.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES
+from antinode.inputs.reading import COLUMN_UNITS
 from antinode.modes.result import ModalResult, Mode
 
 LINE = 3
@@ -92,10 +93,9 @@ def _point_data(result: ModalResult) -> Iterable[str]:
 def _cell_data(beam: Beam, x: Array) -> Iterable[str]:
     k = np.clip(np.searchsorted(beam.x, x, side="right") - 1, 0, len(beam.x) - 2)
     t = (x - beam.x[k]) / np.diff(beam.x)[k]
-    yield _array("mass_per_length [kg/m]", beam.at(beam.mass_per_length, k, t))
-    yield _array("bending_stiffness [N m^2]", beam.at(beam.bending_stiffness, k, t))
-    if beam.axial_stiffness is not None:
-        yield _array("axial_stiffness [N]", beam.at(beam.axial_stiffness, k, t))
+    for name in dict.fromkeys(table for family in FAMILIES.values() for table in family.tables):
+        if name != "axial_force" and getattr(beam, name) is not None:
+            yield _array(f"{name} [{COLUMN_UNITS[name]}]", beam.column_at(name, k, t))
     yield _array("axial_force [N]", beam.axial_force_at(k, t))
 
 

@@ -83,6 +83,14 @@ def positive(name: str, column: Array, unit: str) -> None:
         raise ValueError(f"{wrong}; must be greater than 0 {unit}: correct this row")
 
 
+def both_or_neither(table: object, one: str, other: str) -> None:
+    """Raise ValueError if a table has only one of two columns that need each other."""
+    given = {name: getattr(table, name) is not None for name in (one, other)}
+    if given[one] != given[other]:
+        there, absent = (one, other) if given[one] else (other, one)
+        raise ValueError(f"{there} is given, but {absent} is missing: give both, or neither")
+
+
 def with_closed_stations(table: Any) -> Any:
     """Return a table whose stepped columns may have one value for each interval, with the last row.
 

@@ -34,6 +34,8 @@ COLUMN_UNITS = {
     "radius": "m",
     "radius_of_gyration": "m",
     "wall": "m",
+    "torsional_stiffness": "N m^2",
+    "polar_inertia_per_length": "kg m",
 }
 """SI unit of every column that a table of stations may have."""
 

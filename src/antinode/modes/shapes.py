@@ -118,7 +118,7 @@ def model_error_parts(beam: Beam, chain: Chain, energies: Energies) -> ModelErro
     t = (middle - beam.x[k]) / np.diff(beam.x)[k]
     EA = beam.at(beam.axial_stiffness, k, t)
     if beam.radius_of_gyration is not None:
-        r2 = beam.at(beam.radius_of_gyration, k, t) ** 2
+        r2 = beam.column_at("radius_of_gyration", k, t) ** 2
     else:
         r2 = chain.stiffness / EA
     kGA = EA / (4 * 1.3)

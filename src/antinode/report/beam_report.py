@@ -34,7 +34,7 @@ def beam_report(file: BeamFile, result: ModalResult, source: Source, command: st
     modes = sum(mode.number > 0 for mode in result.family(BENDING))
     moved = beam_influences(file, min(modes, _MOST_MODES), result.tolerance)
     sections = [
-        method_section(vehicle=False),
+        method_section(result.families, vehicle=False),
         *beam_inputs(file, beam),
         Section("Beam and axial force", tuple(_axial_force(beam))),
         frequency_section(result),

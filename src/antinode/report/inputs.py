@@ -11,7 +11,7 @@ from pydantic import BaseModel
 
 from antinode.beam.attachments import Attachment, Joint, PointMass, Spring, name_of
 from antinode.beam.beam import Beam
-from antinode.beam.families import LONGITUDINAL
+from antinode.beam.families import FAMILIES
 from antinode.beam.file import BeamFile
 from antinode.vehicle.case import Case
 
@@ -112,6 +112,8 @@ _SPOKEN = {
     "axial_stiffness": "EA",
     "axial_force": "N",
     "radius_of_gyration": "radius of gyration",
+    "torsional_stiffness": "GJ",
+    "polar_inertia_per_length": "ρI_p",
 }
 
 
@@ -163,6 +165,8 @@ def beam_inputs(file: BeamFile, beam: Beam) -> list[Section]:
         ("axial_stiffness", "N"),
         ("axial_force", "N"),
         ("radius_of_gyration", "m"),
+        ("torsional_stiffness", "N m^2"),
+        ("polar_inertia_per_length", "kg m"),
     )
     columns = [
         (name, unit, np.asarray(getattr(stations, name)))
@@ -170,7 +174,7 @@ def beam_inputs(file: BeamFile, beam: Beam) -> list[Section]:
         if getattr(stations, name) is not None
     ]
     sides = [
-        (side, getattr(ends, side), ends.of(LONGITUDINAL)[k])
+        (side, *(ends.of(family)[k] for family in FAMILIES))
         for k, side in enumerate(("left", "right"))
     ]
     blocks: list[Block] = [
@@ -178,12 +182,16 @@ def beam_inputs(file: BeamFile, beam: Beam) -> list[Section]:
             f"{beam.name}: {number(beam.length)} m long, {number(beam.mass)} kg with what is "
             f"attached. Columns run between the stations by “{table_.interpolation}”."
         ),
-        table("Ends.", ("end", "laterally", "axially"), sides, left=(0, 1, 2)),
+        table("Ends.", ("end", *_END_HEADS), sides, left=(0, 1, 2, 3)),
         station_table("Stations, as given.", columns),
         *_loads_and_parts(file),
         *attachment_tables(beam.attachments),
     ]
     return [Section("Inputs", tuple(blocks))]
+
+
+_END_HEADS = ("laterally", "axially", "about the axis")
+"""How an end is held in each family."""
 
 
 def _loads_and_parts(file: BeamFile) -> Iterator[Block]:
@@ -220,19 +228,24 @@ _KINDS: tuple[tuple[type, str, tuple[str, ...], tuple[str, ...]], ...] = (
     (
         PointMass,
         "Point masses.",
-        ("mass [kg]", "rotary inertia [kg m^2]", "offset [m]"),
-        ("mass", "rotary_inertia", "offset"),
+        ("mass [kg]", "rotary inertia [kg m^2]", "offset [m]", "polar inertia [kg m^2]"),
+        ("mass", "rotary_inertia", "offset", "polar_inertia"),
     ),
     (
         Spring,
         "Springs and supports to the ground.",
-        ("translational [N/m]", "rotational [N m/rad]", "axial [N/m]"),
-        ("translational", "rotational", "axial"),
+        (
+            "translational [N/m]",
+            "rotational [N m/rad]",
+            "axial [N/m]",
+            "torsional [N m/rad]",
+        ),
+        ("translational", "rotational", "axial", "torsional"),
     ),
     (
         Joint,
         "Joints in line.",
-        ("rotational [rad/(N m)]", "axial [m/N]"),
-        ("rotational", "axial"),
+        ("rotational [rad/(N m)]", "axial [m/N]", "torsional [rad/(N m)]"),
+        ("rotational", "axial", "torsional"),
     ),
 )

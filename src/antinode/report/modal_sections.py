@@ -116,8 +116,7 @@ def axial_section(result: ModalResult, buckles: Buckling | None) -> Section:
 def _buckling_words(result: ModalResult, buckles: Buckling | None) -> str:
     if result.beam.is_unloaded:
         return "There is no axial force."
-    words = "Compression lowers bending frequencies, tension raises them; longitudinal modes keep "
-    words += "theirs. "
+    words = "Compression lowers bending frequencies, tension raises them; the others keep theirs. "
     if buckles is None:
         return words + "No factor on this axial force buckles the beam."
     return words + (

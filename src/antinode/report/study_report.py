@@ -42,7 +42,7 @@ def study_report(study: Study, source: Source, command: str) -> tuple[Document, 
     told += warning_texts(found["warnings"], points.cases)
     uncertainty, left_out = _uncertainty(study)
     sections = [
-        method_section(vehicle=True),
+        method_section(study.solve.families, vehicle=True),
         Section("The study", tuple(_study(study, found))),
         *_titled(case_inputs(study.case)),
         Section("Frequencies", tuple(_frequencies(study, points, data, found))),

@@ -26,7 +26,7 @@ def vehicle_report(case: Case, result: ModalResult, source: Source, command: str
     """Return the document on a case and its modes, solved with `unloaded=True`."""
     told = [*case.loads.warnings, *result.warnings]
     sections = [
-        method_section(vehicle=True),
+        method_section(result.families, vehicle=True),
         *case_inputs(case),
         *load_sections(case, _loads_figure(case)),
         frequency_section(result),

@@ -2,16 +2,45 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from antinode.beam.families import BENDING, LONGITUDINAL, TORSION, FamilyName
 from antinode.modes.result import NOT_MODELLED
 
 from .blocks import Block, Equation, Section, bullets, paragraph, runs, table
 
-_BENDING = Equation(runs("(EI Y'')'' + (N Y')' = ω^2 m Y"), "(E I Y'')'' + (N Y')' = omega^2 m Y")
-_LONGITUDINAL = Equation(runs("−(EA X')' = ω^2 m X"), "-(E A X')' = omega^2 m X")
+
+class _Family(NamedTuple):
+    """How a family of modes is introduced."""
+
+    name: str
+    equation: Equation
+    symbols: str
+
+
+_FAMILIES: Mapping[FamilyName, _Family] = {
+    BENDING: _Family(
+        "bending in one plane",
+        Equation(runs("(EI Y'')'' + (N Y')' = ω^2 m Y"), "(E I Y'')'' + (N Y')' = omega^2 m Y"),
+        "bending stiffness EI and mass per length m",
+    ),
+    LONGITUDINAL: _Family(
+        "longitudinal vibration",
+        Equation(runs("−(EA X')' = ω^2 m X"), "-(E A X')' = omega^2 m X"),
+        "axial stiffness EA",
+    ),
+    TORSION: _Family(
+        TORSION,
+        Equation(runs("−(GJ φ')' = ω^2 ρI_p φ"), "-(G J phi')' = omega^2 rho I_p phi"),
+        "torsional stiffness GJ and polar inertia per length ρI_p",
+    ),
+}
 
 _SIGNS = (
     ("x", "m", "along the axis from the nose or the left end", "aft, to the right"),
     ("Y, X", "m", "lateral and axial displacement", "up; aft"),
+    ("φ", "rad", "rotation about the axis", "right-handed about x"),
     ("N", "N", "axial force", "compression"),
     ("Q", "N", "static shear force on the part ahead of x", "up"),
     ("M", "N m", "bending moment EI Y''", "ends bent up"),
@@ -19,28 +48,29 @@ _SIGNS = (
     ("thrust", "N", "at the tail", "forward"),
     ("angles", "rad", "cavitator, body, fins", "nose-up, or lifting"),
 )
-_BEAM_SIGNS = 5
+_BEAM_SIGNS = 6
 """Of these, how many concern any beam."""
 
 
-def method_section(vehicle: bool) -> Section:
+def method_section(families: Sequence[FamilyName], *, vehicle: bool) -> Section:
     """Return assumptions and conventions."""
-    return Section("Assumptions and conventions", tuple(_method(vehicle)))
+    return Section("Assumptions and conventions", tuple(_method(families, vehicle)))
 
 
-def _method(vehicle: bool) -> list[Block]:
+def _method(families: Sequence[FamilyName], vehicle: bool) -> list[Block]:
+    told = [_FAMILIES[name] for name in families]
     what = "vehicle is a straight free-free" if vehicle else "structure is a straight"
     first = (
-        f"The {what} Euler-Bernoulli beam under a static axial force N(x). Bending in one plane "
-        "and longitudinal vibration are solved apart:"
+        f"The {what} Euler-Bernoulli beam under a static axial force N(x). "
+        f"{_listed([family.name for family in told]).capitalize()} "
+        f"{'are solved apart' if len(told) > 1 else 'is solved'}:"
     )
     return [
         paragraph(first),
-        _BENDING,
-        _LONGITUDINAL,
+        *(family.equation for family in told),
         paragraph(
-            "with bending stiffness EI, axial stiffness EA and mass per length m. A prime is a "
-            "derivative by x. What is assumed:"
+            f"with {_listed([family.symbols for family in told])}. A prime is a derivative by x. "
+            "What is assumed:"
         ),
         bullets([*(_OF_A_VEHICLE if vehicle else _OF_A_BEAM), *_ALWAYS]),
         paragraph("Not in the model: " + "; ".join(NOT_MODELLED) + "."),
@@ -48,6 +78,10 @@ def _method(vehicle: bool) -> list[Block]:
         paragraph(_ERROR),
         paragraph(_NAMES),
     ]
+
+
+def _listed(words: Sequence[str]) -> str:
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 
 
 _OF_A_VEHICLE = (

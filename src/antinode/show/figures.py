@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from antinode.beam.families import BENDING, LONGITUDINAL
+from antinode.beam.families import FAMILIES
 from antinode.errors import InputError
 from antinode.modes.result import ModalResult, Mode
 from antinode.whole import write_file
@@ -51,15 +52,14 @@ def save(figure: Figure, path: Path) -> None:
 
 @styled()
 def plot_modes(result: ModalResult, most: int = 6) -> Figure:
-    """Draw a beam with what is attached, its bending shapes, their moments, longitudinal shapes.
+    """Draw a beam with what is attached, the shapes of every family, and the bending moments.
 
     The axial force stands below, where there is one.
     """
-    beam, longitudinal = result.beam, _numbered(result, LONGITUDINAL, most)
-    rows = 3 + bool(longitudinal) + (not beam.is_unloaded)
-    figure, axes = _stack((0.45, *[1.0] * (rows - 1)))
+    beam, panels = result.beam, _panels(result, most)
+    figure, axes = _stack((0.45, *[1.0] * (len(panels) + (not beam.is_unloaded))))
     draw_beam(beam, axes[0])
-    _shape_panels(result, axes[1:], most)
+    _draw_panels(panels, result, axes[1:])
     if not beam.is_unloaded:
         _axial_force_of_beam(beam, axes[-1])
     for panel in axes[1:]:
@@ -81,20 +81,20 @@ def plot_beam(beam: Beam) -> Figure:
 @styled()
 def plot_case(case: Case, result: ModalResult, most: int = 6) -> Figure:
     """Draw the vehicle in its cavity, its axial force and its modes, one above the other."""
-    longitudinal = _numbered(result, LONGITUDINAL, most)
-    figure, axes = _stack((0.7, *[1.0] * (3 + bool(longitudinal))))
+    panels = _panels(result, most)
+    figure, axes = _stack((0.7, *[1.0] * (1 + len(panels))))
     draw_vehicle(case, axes[0])
     draw_axial_force(case, axes[1])
-    _shape_panels(result, axes[2:], most)
+    _draw_panels(panels, result, axes[2:])
     return _titled(figure, axes, case_title(case), "x from the nose [m]")
 
 
 @styled()
 def plot_shapes(result: ModalResult, most: int = 6, origin: str = "the left end") -> Figure:
     """Draw shapes and moments alone."""
-    longitudinal = _numbered(result, LONGITUDINAL, most)
-    figure, axes = _stack((1.0,) * (2 + bool(longitudinal)))
-    _shape_panels(result, axes, most)
+    panels = _panels(result, most)
+    figure, axes = _stack((1.0,) * len(panels))
+    _draw_panels(panels, result, axes)
     for panel in axes:
         mark_stations(result.beam, panel)
     return _titled(figure, axes, "", f"x from {origin} [m]")
@@ -151,16 +151,33 @@ def case_title(case: Case) -> str:
     )
 
 
-def _shape_panels(result: ModalResult, axes: Any, most: int) -> None:
-    bending = _numbered(result, BENDING, most)
-    longitudinal = _numbered(result, LONGITUDINAL, most)
-    _curves(axes[0], result.x, bending, 0)
-    axes[0].set(title="Bending modes", ylabel="Y (largest 1) [-]")
-    _curves(axes[1], result.x, bending, 2, scaled=True)
-    axes[1].set(title="Their bending moments", ylabel="M (largest 1) [-]")
-    if longitudinal and len(axes) > 2:
-        _curves(axes[2], result.x, longitudinal, 0)
-        axes[2].set(title="Longitudinal modes", ylabel="X (largest 1) [-]")
+class _Panel(NamedTuple):
+    """Curves of one component of the states of some modes."""
+
+    title: str
+    modes: list[Mode]
+    component: int
+    symbol: str
+
+
+def _panels(result: ModalResult, most: int) -> list[_Panel]:
+    """Return a panel of shapes for every family that has any, and of moments where it bends."""
+    panels = []
+    for name in result.families:
+        family, modes = FAMILIES[name], _numbered(result, name, most)
+        if modes:
+            shape = family.quantities[0].symbol
+            panels.append(_Panel(f"{name.capitalize()} modes", modes, 0, shape))
+        if modes and family.rotary:
+            moment = family.quantities[2].symbol
+            panels.append(_Panel(f"Their {name} moments", modes, 2, moment))
+    return panels
+
+
+def _draw_panels(panels: Sequence[_Panel], result: ModalResult, axes: Any) -> None:
+    for panel, ax in zip(panels, axes, strict=False):
+        _curves(ax, result.x, panel.modes, panel.component, scaled=panel.component > 0)
+        ax.set(title=panel.title, ylabel=f"{panel.symbol} (largest 1) [-]")
 
 
 def _curves(

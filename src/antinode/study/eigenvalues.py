@@ -14,7 +14,7 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.ends import FREE
-from antinode.beam.families import BENDING, LONGITUDINAL, FamilyName
+from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.errors import ComputationError
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.modes.hertz import signed_hertz
@@ -76,9 +76,10 @@ def eigenvalues_of(
     for k, chain, omega2 in zip(rows, chains, _bending(chains, numbers), strict=True):
         modes[k][BENDING] = ChainModes(chain, omega2)
     for k, families in enumerate(wanted):
-        if LONGITUDINAL in families:
-            chain = beams[k].chain(LONGITUDINAL, refinement)
-            modes[k][LONGITUDINAL] = ChainModes(chain, _solve(chain, families[LONGITUDINAL], 1, 1))
+        for family, number in families.items():
+            if not FAMILIES[family].law.has_axial_force:
+                chain = beams[k].chain(family, refinement)
+                modes[k][family] = ChainModes(chain, _solve(chain, number, 1, 1))
     return tuple(map(CaseEigenvalues, cases, [case.loads for case in cases], beams, modes))
 
 

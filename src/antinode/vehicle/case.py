@@ -33,6 +33,8 @@ COLUMNS = (
     "radius",
     "radius_of_gyration",
     "wall",
+    "torsional_stiffness",
+    "polar_inertia_per_length",
 )
 
 
@@ -95,6 +97,8 @@ def body_as_beam(vehicle: Vehicle, x: Array, burn_fraction: float, **axial: Any)
         axial_stiffness=section.axial_stiffness,
         interpolation=_interpolation(vehicle),
         radius_of_gyration=radius_of_gyration(section),
+        torsional_stiffness=section.torsional_stiffness,
+        polar_inertia_per_length=section.polar_inertia_per_length,
         name=vehicle.name,
         **axial,
     )

@@ -12,7 +12,13 @@ from .numbers import Keys
 from .vehicle import Stations, Vehicle
 
 _MASS = "mass_per_length"
-_PLAIN = ("bending_stiffness", "axial_stiffness", "radius")
+_PLAIN = (
+    "bending_stiffness",
+    "axial_stiffness",
+    "radius",
+    "torsional_stiffness",
+    "polar_inertia_per_length",
+)
 
 
 def column_keys(stations: Stations, name: str) -> Keys:
@@ -29,9 +35,10 @@ def column_keys(stations: Stations, name: str) -> Keys:
         state = state or states[0]
         if state in states:
             return base, state
-    elif name in _PLAIN:
+    elif name in _PLAIN and getattr(stations, name) is not None:
         return (name,)
-    known = [*(f"{_MASS}:{s}" for s in states[1:]), _MASS, *_PLAIN]
+    known = [*(f"{_MASS}:{s}" for s in states[1:]), _MASS]
+    known += [column for column in _PLAIN if getattr(stations, column) is not None]
     raise InputError(f"distributions: column = {short(name)}; {nearest(name, known)}")
 
 

@@ -25,7 +25,7 @@ import numpy.typing as npt
 
 from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
-from antinode.beam.families import FamilyName
+from antinode.beam.families import FAMILIES, FamilyName
 from antinode.beam.mass import moments_within
 from antinode.beam.profile import Profile
 from antinode.modes.backends import BackendName, choose
@@ -35,6 +35,7 @@ from antinode.riccati.shapes import propagate
 from .forces import ForceOnBody
 from .loads import Loads
 
+_MASS = "mass_per_length"
 _SHORT = 0.5  # wave number times length up to which three points integrate squares to 1e-9
 
 
@@ -291,6 +292,8 @@ class EigenvalueDerivatives:
 
     def by_mass(self, change: MassChange) -> Array:
         """Return d(omega^2) for each unit of a parameter that changes the mass, shape (k,)."""
+        if FAMILIES[self.modes.family].columns["mass"] != _MASS:
+            return np.zeros(len(self.modes.omega2))
         return self._by_mass(
             change.density(self.modes.x),
             self._seen_ahead(change.ahead),

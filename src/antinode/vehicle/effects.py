@@ -14,7 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Interpolation
 from antinode.beam.families import FAMILIES
 
 from .case import Case
@@ -31,8 +31,6 @@ _STEP = 2e-6
 _STATIONS = ("vehicle", "stations")
 _MASSES = ("vehicle", "masses")
 _MASS = "mass_per_length"
-_STIFFNESS = {family.stiffness: name for name, family in FAMILIES.items()}
-"""Columns of stiffness, and the family that each of them belongs to."""
 _BURN = ("condition", "burn_fraction")
 _THRUST = ("condition", "thrust")
 
@@ -140,13 +138,17 @@ def by_rows(case: Case, key: str, sensitivity: EigenvalueDerivatives) -> Array:
     vehicle = case.vehicle
     stations, how = vehicle.stations, vehicle.interpolation
     name, _, state = key.partition(":")
-    if name == _MASS:
+    family = FAMILIES[sensitivity.modes.family]
+    if name == _MASS == family.columns["mass"]:
         burnt = case.condition.burn_fraction
         share = _share(state, list(stations.mass_per_length), burnt)
         if share:
             column = vehicle.mass_per_length(burnt)
             return share * sensitivity.by_mass_rows(stations.x, column, how)
-    elif _STIFFNESS.get(name) == sensitivity.modes.family:
+    elif name == family.columns["mass"]:
+        straight: Interpolation = "step" if how == "step" else "linear"
+        return sensitivity.by_mass_rows(stations.x, column_values(stations, (name,)), straight)
+    elif name == family.stiffness:
         return sensitivity.by_stiffness_rows(stations.x, column_values(stations, (name,)), how)
     return np.zeros((len(stations.x), len(sensitivity.modes.omega2)))
 

@@ -21,7 +21,13 @@ Numbers = Mapping[Keys, Array]
 """Arrays by the keys of what varies: numbers (cases,), columns (cases, rows)."""
 
 _FIN_NUMBERS = ("tip_radius", "thickness", "lift_slope", "chord", "position", "deflection")
-_COLUMNS = ("mass_per_length", "bending_stiffness", "axial_stiffness")
+_COLUMNS = (
+    "mass_per_length",
+    "bending_stiffness",
+    "axial_stiffness",
+    "torsional_stiffness",
+    "polar_inertia_per_length",
+)
 _BURN = ("condition", "burn_fraction")
 
 

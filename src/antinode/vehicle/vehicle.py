@@ -26,7 +26,14 @@ from antinode.arrays import Array, Interpolation
 from antinode.beam.mass import MassDistribution, burnt
 from antinode.beam.parts import MassTable, check_on_body
 from antinode.beam.profile import Profile
-from antinode.inputs.columns import Column, finite, increasing, positive, with_closed_stations
+from antinode.inputs.columns import (
+    Column,
+    both_or_neither,
+    finite,
+    increasing,
+    positive,
+    with_closed_stations,
+)
 from antinode.inputs.units import Angle, Frozen, Length, Number
 from antinode.text import counted
 
@@ -107,6 +114,13 @@ class Stations(Frozen):
     wall: Annotated[Array, Column("m")] | None = Field(
         default=None, description="wall thickness of the hull [m]"
     )
+    torsional_stiffness: Annotated[Array, Column("N m^2")] | None = Field(
+        default=None, description="GJ [N m^2]; without it there are no torsion modes"
+    )
+    polar_inertia_per_length: Annotated[Array, Column("kg m")] | None = Field(
+        default=None,
+        description="rho I_p about the axis [kg m], parts included; beside torsional_stiffness",
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -133,6 +147,7 @@ class Stations(Frozen):
                 positive(name, np.concatenate([[1.0], column[1:]]), unit)
             else:
                 positive(name, column, unit)
+        both_or_neither(self, "torsional_stiffness", "polar_inertia_per_length")
         return self
 
     def columns(self) -> Iterator[tuple[str, Array, str]]:
@@ -142,10 +157,10 @@ class Stations(Frozen):
         yield "bending_stiffness", self.bending_stiffness, "N m^2"
         yield "axial_stiffness", self.axial_stiffness, "N"
         yield "radius", self.radius, "m"
-        if self.radius_of_gyration is not None:
-            yield "radius_of_gyration", self.radius_of_gyration, "m"
-        if self.wall is not None:
-            yield "wall", self.wall, "m"
+        for name, unit in _OPTIONAL.items():
+            column = getattr(self, name)
+            if column is not None:
+                yield name, column, unit
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Stations) or not np.array_equal(self.x, other.x):
@@ -159,6 +174,13 @@ class Stations(Frozen):
 
 
 _MASS = "mass_per_length"
+_OPTIONAL = {
+    "radius_of_gyration": "m",
+    "wall": "m",
+    "torsional_stiffness": "N m^2",
+    "polar_inertia_per_length": "kg m",
+}
+"""Columns that stations may leave out, with their units."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,6 +194,8 @@ class Section:
     radius: Array
     radius_of_gyration: Array | None
     wall: Array | None
+    torsional_stiffness: Array | None
+    polar_inertia_per_length: Array | None
 
 
 class Vehicle(Frozen):
@@ -266,15 +290,19 @@ class Vehicle(Frozen):
         def ends(column: Array, how: Interpolation = self.interpolation) -> Array:
             return Profile.of_rows(table.x, column, how).between(points)
 
-        gyration, wall = table.radius_of_gyration, table.wall
+        def optional(column: Array | None, how: Interpolation) -> Array | None:
+            return None if column is None else ends(column, how)
+
         return Section(
             x=points,
             mass_per_length=self.mass_distribution(burn_fraction).between(points),
             bending_stiffness=ends(table.bending_stiffness),
             axial_stiffness=ends(table.axial_stiffness),
             radius=self.radius_profile.between(points),
-            radius_of_gyration=None if gyration is None else ends(gyration, self._radial),
-            wall=None if wall is None else ends(wall, self._radial),
+            radius_of_gyration=optional(table.radius_of_gyration, self._radial),
+            wall=optional(table.wall, self._radial),
+            torsional_stiffness=optional(table.torsional_stiffness, self.interpolation),
+            polar_inertia_per_length=optional(table.polar_inertia_per_length, self._radial),
         )
 
     @property

@@ -13,13 +13,14 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.attachments import Joint, PointMass, Spring
 from antinode.beam.beam import Beam
-from antinode.beam.families import LONGITUDINAL
+from antinode.beam.families import FAMILIES, LONGITUDINAL
 from antinode.exchange.units import SI, System
 from antinode.modes.hertz import hertz
 from antinode.modes.result import ModalResult
@@ -99,16 +100,21 @@ def _comparable(result: ModalResult) -> tuple[ModalResult, tuple[str, ...]]:
     from antinode.modes.solve import solve_one
 
     beam = result.beam
+    in_plane = [name for name in result.families if set(FAMILIES[name].freedoms) <= {0, 1, 5}]
+    kept = tuple(mode for mode in result.modes if mode.family in in_plane)
     offset = any(isinstance(item, PointMass) and item.offset for item in beam.attachments)
     notes: tuple[str, ...] = ()
     if beam.axial_stiffness is None:
         notes = (f"EA is not known: EI/(L/{1 / SLENDER:.0f})^2 stands for it",)
+    if len(kept) < len(result.modes):
+        notes = (*notes, "torsion is left out: the grids of this deck do not turn about x")
     if not (offset and beam.offset_weight and beam.axial_acceleration):
-        return result, notes
+        return replace(result, modes=kept), notes
     beam = replace(beam, offset_weight=False)
     number = max(mode.number for mode in result.modes)
     say = "the weight of offset masses acts at their grids, in the frequencies expected here too"
-    return solve_one(beam, number, tolerance=result.tolerance, unloaded=True), (*notes, say)
+    options: dict[str, Any] = {"tolerance": result.tolerance, "families": in_plane}
+    return solve_one(beam, number, unloaded=True, **options), (*notes, say)
 
 
 def elements_of(beam: Beam, count: int) -> Elements:

@@ -1,8 +1,9 @@
 """Measured modes (dataset 55) and frequency responses (58) of a universal file as observations.
 
 The nodes (15 or 2411) give the line of the beam, which follows an axis of the file. A mode that
-moves mostly along it is longitudinal; bending is taken across it in one plane. Frequency responses
-become frequencies by `frf.find_modes`: one row each, with a standard deviation of its own.
+moves mostly along it is longitudinal, one that only turns about it is torsion; bending is taken
+across it in one plane. Frequency responses become frequencies by `frf.find_modes`: one row each,
+with a standard deviation of its own.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arrays import Array, Complex
-from antinode.beam.families import BENDING, LONGITUDINAL
+from antinode.beam.families import BENDING, LONGITUDINAL, TORSION
 from antinode.errors import InputError
 from antinode.exchange.units import SI, System
 from antinode.extras import import_extra
@@ -210,6 +211,9 @@ def _shape(data: Row, geometry: Geometry) -> tuple[str, list[int], Array]:
     if not geometry.x:
         return BENDING, nodes, np.zeros(0)
     across = 3 - geometry.axis - geometry.lateral
+    turn = data.get(f"r{4 + geometry.axis}")
+    if not any(size) and turn is not None and np.any(turn):
+        return TORSION, nodes, _real(np.asarray(turn))
     if size[geometry.axis] > size[geometry.lateral] + size[across]:
         return LONGITUDINAL, nodes, parts[geometry.axis]
     if size[geometry.lateral] < size[across] or not size[geometry.lateral] > 0:

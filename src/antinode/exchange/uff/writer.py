@@ -1,6 +1,7 @@
 """Modes as a universal file: units (164), nodes (15), trace line (82), modes (55).
 
-Lengths are m, frequencies Hz; a shape has six values a node, X, Y and the slope about z. The format
+Lengths are m, frequencies Hz; a shape has six values a node, X, Y, the rotation
+about x and the slope about z. The format
 keeps six digits. A dataset 55 has no place for a divergent mode: those are left out.
 """
 

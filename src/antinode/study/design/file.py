@@ -163,7 +163,7 @@ class StudySolve(Frozen):
         default=1e-6, description="relative error of a frequency by what varies inside segments"
     )
     families: tuple[FamilyName, ...] = Field(
-        default=(BENDING,), min_length=1, max_length=2, description="families of modes"
+        default=(BENDING,), min_length=1, max_length=3, description="families of modes"
     )
 
 

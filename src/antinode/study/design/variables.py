@@ -22,7 +22,14 @@ from antinode.vehicle.vehicle import Vehicle
 
 from .file import StudyInput
 
-_COLUMNS = ("mass_per_length", "bending_stiffness", "axial_stiffness", "radius")
+_COLUMNS = (
+    "mass_per_length",
+    "bending_stiffness",
+    "axial_stiffness",
+    "radius",
+    "torsional_stiffness",
+    "polar_inertia_per_length",
+)
 
 
 @dataclass(frozen=True)

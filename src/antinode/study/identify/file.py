@@ -79,6 +79,11 @@ class RowBase(Frozen):
         max_length=500,
         description="frequencies of longitudinal 1, 2, ... [Hz]; nan where not measured",
     )
+    torsion: tuple[Frequency, ...] = Field(
+        default=(),
+        max_length=500,
+        description="frequencies of torsion 1, 2, ... [Hz]; nan where not measured",
+    )
     shapes: tuple[ShapeRow, ...] = Field(
         default=(), description="observed shapes; they pair modes by MAC in place of the number"
     )

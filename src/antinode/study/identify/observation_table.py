@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from antinode.beam.families import BENDING, LONGITUDINAL
+from antinode.beam.families import FAMILIES
 from antinode.errors import InputError
 from antinode.inputs.reading import Row, read_cells
 from antinode.text import short
 
-FAMILIES = (BENDING, LONGITUDINAL)
 _TEXTS = ("name", "mass_state")
 _MOST = 500
 
@@ -54,7 +53,8 @@ def _column(cell: str, path: Path) -> tuple[str, str]:
 
 def _check_mode(family: str, number: str, where: str) -> None:
     if family not in FAMILIES:
-        raise InputError(f"{where}: there is no such family; write bending:1 or longitudinal:1")
+        known = ", ".join(f"{name}:1" for name in FAMILIES)
+        raise InputError(f"{where}: there is no such family; write one of {known}")
     if not (number.isascii() and number.isdigit() and 1 <= int(number[:9]) <= _MOST):
         raise InputError(f"{where}: there is no such mode; numbers run from 1 to {_MOST}")
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from antinode.arrays import Array, Integers
-from antinode.beam.families import BENDING, LONGITUDINAL, FamilyName
+from antinode.beam.families import FAMILIES, FamilyName
 from antinode.beam.limits import check_limits
 from antinode.errors import AntinodeError, InputError
 from antinode.inputs.explain import validate
@@ -26,7 +26,6 @@ from antinode.vehicle.numbers import replaced
 
 from .file import Fit, IdentificationProblem, RowBase, ShapeRow
 
-FAMILIES: tuple[FamilyName, ...] = (BENDING, LONGITUDINAL)
 RELATIVE_SD = 1e-3
 """Taken to weigh frequencies where no standard deviation is given; the noise is then estimated."""
 _FURTHER = 2  # modes above the highest observed one among which a shape may be found

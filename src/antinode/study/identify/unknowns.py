@@ -383,6 +383,8 @@ _UNITS = {
     "bending_stiffness": "N m^2",
     "axial_stiffness": "N",
     "radius": "m",
+    "torsional_stiffness": "N m^2",
+    "polar_inertia_per_length": "kg m",
 }
 
 
