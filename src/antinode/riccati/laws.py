@@ -5,13 +5,13 @@ ends and points there are, how eigenvalues are counted at the nodes, and which e
 mass and stiffness. Everything else in this package reads it from here; no other module of the
 readable form names a law.
 
-==============  ==============  ===============================  ===============================
-law             state           equations                        columns
-==============  ==============  ===============================  ===============================
-`BENDING`       Y theta M Q     ``M = EI Y''``, ``Q = M' + N Y'``  mass, stiffness EI, axial_force N
-`BAR`           X Q             ``Q = -EA X'``                   mass, stiffness EA
-`SHAFT`         phi T           ``T = GJ phi'``                  mass rho I_p, stiffness GJ
-==============  ==============  ===============================  ===============================
+=========  ===========  ==================================  =====================================
+law        state        equations                           columns
+=========  ===========  ==================================  =====================================
+`BENDING`  Y theta M Q  ``M = EI Y''``, ``Q = M' + N Y'``   mass, stiffness EI, axial_force N
+`BAR`      X Q          ``Q = -EA X'``                      mass, stiffness EA
+`SHAFT`    phi T        ``T = GJ phi'``                     mass rho I_p, stiffness GJ
+=========  ===========  ==================================  =====================================
 
 The force of each law changes along the beam by ``m omega^2 u`` (equation 48 with equation 50).
 """
