@@ -2,9 +2,10 @@
 
 Draws beams of every kind (tests/all_beams.py) and solves each in every way: `solve_modes`,
 `natural_frequencies` and the page's quick solve by either backend, `solve_many` where nothing
-varies inside segments, and `buckling`. Every number is compared with Taylor series in pairs of
-doubles (tests/many_digits.py), which share nothing with the solver. A fault is an error above the
-stated one, a mode that is missing or does not exist, or a bracket whose counts are not true.
+varies inside segments, and `buckling`; and sweeps the starter vehicle. Every number is compared
+with Taylor series in pairs of doubles (tests/many_digits.py), which share nothing with the solver.
+A fault is an error above the stated one, a mode that is missing or does not exist, or a bracket
+whose counts are not true.
 A way may also decline, by a warning that the tolerance is out of reach or by an error; that is no
 fault, and is counted.
 
@@ -16,8 +17,11 @@ import datetime
 import multiprocessing
 import os
 import platform
+import subprocess
 import sys
+import tempfile
 import time
+import tomllib
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 from importlib.metadata import version
@@ -220,6 +224,51 @@ def _truth(beam, exact, claim):
         return np.nan
 
 
+STUDY = """
+inputs = [
+  { key = "speed", low = 60, high = 120 },
+  { key = "thrust", low = 0, high = 2e5 },
+  { key = "fin_position", low = 4, high = 5.9 },
+]
+outputs = ["omega2", "error_hz"]
+design = { kind = "sobol", number = NUMBER }
+solve = { modes = 4, tolerance = 1e-5 }
+"""
+
+
+def study_rows(number=64):
+    """Rows of every frequency of a sweep of the starter vehicle: chains solved in batches."""
+    import antinode as an
+    from antinode.modes.hertz import hertz
+    from antinode.study.cases.values import case_of
+    from antinode.study.design.file import Study
+    from antinode.study.design.points import points_of
+    from antinode.study.sweep.sweep import sweep
+
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(
+            [sys.executable, "-m", "antinode", "init", "--example", "sweep", folder],
+            check=True, capture_output=True,
+        )  # fmt: skip
+        case = an.load_case(Path(folder) / "case.toml")
+    made = Study.model_validate(
+        {**tomllib.loads(STUDY.replace("NUMBER", str(number))), "case": case}
+    )
+    found, points, rows = sweep(made), points_of(made), []
+    values = np.concatenate([points.values(chunk) for chunk in range(points.chunks)])
+    for i, row in enumerate(values):
+        keys = {v.keys: [x] for v, x in zip(points.variables, row, strict=True)}
+        beam = case_of(case, keys, 0).beam()
+        omega2, error = found.omega2[i].values, found.error_hz[i].values
+        exact = ManyDigits(beam, 1.2 * np.max(np.abs(omega2)))
+        for k, value in enumerate(omega2.tolist()):
+            if value > 0:  # past the two rigid modes
+                truth = eigenvalue(exact, k + 3, value)
+                rows.append(Row(i, "sweep", k + 3, 1e-5, float(hertz(value)), float(error[k]),
+                                float(hertz(truth))))  # fmt: skip
+    return rows
+
+
 def faults(rows):
     """Rows that break a promise, each with a word on it."""
     for row in rows:
@@ -272,9 +321,9 @@ def record(rows, cases, seed, seconds, jobs):
     for interpolation in INTERPOLATIONS:
         for force in FORCES:
             own = {c for c in range(cases) if kind_of(c) == (interpolation, force)}
-            some = [r for r in rows if r.case in own]
+            some = [r for r in rows if r.case in own and r.way != "sweep"]
             worst = max((r.ratio for r in some if np.isfinite(r.ratio)), default=0.0)
-            wrong = sum(r.case in own for _, r in bad)
+            wrong = sum(r.case in own and r.way != "sweep" for _, r in bad)
             name = f"{interpolation}, {force}"
             lines.append(f"| {name} | {len(own)} | {len(some)} | {worst:.3g} | {wrong} |")
     lines.append("")
@@ -302,7 +351,7 @@ def main():
     parser.add_argument("-o", "--output", type=Path, default=Path(__file__).with_suffix(".md"))
     options = parser.parse_args()
     start = time.perf_counter()
-    rows = run(options.seed, range(options.cases), options.jobs)
+    rows = run(options.seed, range(options.cases), options.jobs) + study_rows()
     text = record(rows, options.cases, options.seed, time.perf_counter() - start, options.jobs)
     options.output.write_text(text)
     print(text)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from validation.all_ways import Row, faults, judge
+from validation.all_ways import Row, faults, judge, study_rows
 
 import antinode as an
 from all_beams import FORCES, draw, kind_of
@@ -80,3 +80,9 @@ def test_the_reference_of_a_column_is_Euler():
     one = an.Beam.from_stations([0, 2], 1.0, 3.0, None, 5.0, ends=an.Ends("pinned", "pinned"))
     euler = math.pi**2 * 3.0 / 4 / 5.0
     assert critical_load(one, (), euler * (1 + 1e-5)) == pytest.approx(euler, rel=1e-15)
+
+
+def test_a_sweep_states_true_errors():
+    rows = study_rows(number=8)
+    assert len(rows) > 20
+    assert list(faults(rows)) == []

@@ -28,10 +28,13 @@ def part(backend: Backend, chain: Chain, omega2: Array, states: Array) -> Array:
         Ascending [rad^2/s^2].
     states : array, shape (n + 1, k, s)
     """
+    groups = [group for group in near_groups(omega2) if len(group) > 1]
+    if not groups:
+        return states
     known = np.asarray(np.isfinite(states).all(axis=(0, 2)))
     states = states.copy()
-    for group in near_groups(omega2):
-        if known[group].all() and len(group) > 1:
+    for group in groups:
+        if known[group].all():
             mean = float(np.mean(omega2[group]))
             parted = _ritz(backend, chain, mean, states[:, group])
             if parted is None:  # nearly the same: as a cluster they are told apart

@@ -155,13 +155,17 @@ def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Freq
         return None
     if found.omega2[0] < 0 and "translation" in rigid_modes(beam, BENDING):
         return None  # its omega^2 = 0 lies above an elastic mode: indices do not tell them apart
-    low = np.minimum(found.bracket[:, 0], found.omega2)
-    high = np.maximum(found.bracket[:, 1], found.omega2)
-    counts = found.counts.copy()
-    share_brackets(low, high, counts)
-    return Frequencies(
-        found.omega2, found.error, np.stack([low, high], axis=1), counts, found.segments
-    )
+    _reach(found.bracket, found.omega2, found.counts)
+    return Frequencies(found.omega2, found.error, found.bracket, found.counts, found.segments)
+
+
+def _reach(bracket: Array, omega2: Array, counts: Integers) -> None:
+    """Let brackets reach to extrapolated values, and neighbours share them where they then meet."""
+    low, high = bracket[:, 0], bracket[:, 1]
+    np.minimum(low, omega2, out=low)
+    np.maximum(high, omega2, out=high)
+    if (low[1:] <= high[:-1]).any():
+        share_brackets(low, high, counts)
 
 
 @out_of_range_is_an_error()

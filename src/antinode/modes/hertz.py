@@ -57,8 +57,8 @@ def error_hz(omega2: float | Array, error: float | Array) -> float | Array:
 
 def error_of_root(square: float, error: float) -> float:
     """Return the largest distance of sqrt(square +- error) from sqrt(square), square >= 0."""
-    if not error:
-        return 0.0
+    if not error or math.isnan(error):
+        return error
     root = math.sqrt(square)
     below = error / (root + math.sqrt(square - error)) if error < square else root
     return max(below, error / (root + math.sqrt(square + error)))

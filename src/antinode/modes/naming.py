@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -37,9 +38,10 @@ def name_modes(
 
 def with_joint_brackets(modes: list[Mode]) -> list[Mode]:
     """Let ascending modes share a bracket where rounding cannot part them."""
-    if not modes:
+    brackets = [mode.bracket_omega2 for mode in modes]
+    if all(a[1] < b[0] for a, b in pairwise(brackets)):
         return modes
-    low, high = (np.array(side) for side in zip(*(m.bracket_omega2 for m in modes), strict=True))
+    low, high = np.array(brackets).T.copy()
     counts = np.array([mode.counts for mode in modes])
     share_brackets(low, high, counts)
     rows = zip(low.tolist(), high.tolist(), counts.tolist(), strict=True)

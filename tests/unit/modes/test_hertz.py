@@ -39,6 +39,11 @@ def test_the_error_of_a_frequency_covers_both_sides(omega2, error):
     assert math.isnan(pair[1])
 
 
+def test_an_unknown_error_stays_unknown():
+    assert math.isnan(error_hz(4.0, math.nan))
+    assert np.isnan(error_hz(np.array([4.0]), np.array([np.nan]))).all()
+
+
 def test_no_error_is_no_error():
     assert error_hz(0.0, 0.0) == 0.0
     np.testing.assert_array_equal(error_hz(np.array([0.0, 4.0]), np.zeros(2)), [0.0, 0.0])

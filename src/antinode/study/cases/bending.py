@@ -1,7 +1,7 @@
 """Bending frequencies of the cases of a chunk, refined until their estimated error is small enough.
 
-The error by what varies inside segments is estimated on every 32nd case, from the change when each
-step is halved; all chains are refined until it is within the tolerance.
+The error by what varies inside segments is judged on every 32nd case, by the one rule on levels of
+halved steps; all chains are refined until it is within the tolerance.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from antinode.beam.families import BENDING, FAMILIES
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.modes.rigid import elastic, rigid_modes_of, zeros_of
 from antinode.riccati.chain import Chain
+from antinode.riccati.convergence import extrapolate
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.study.design.file import Study
 from antinode.vehicle.derivatives import ChainModes
@@ -27,9 +28,10 @@ from .reasons import PAST_BUCKLING, failed
 IN_BATCHES = (BENDING,)
 """Families whose cases are solved together."""
 _SAMPLE = 32
-_SAFETY = 2.5
+_SAFETY = 2.5  # for cases that are not in the sample
 _NEAR_BUCKLING = 1e-7  # share of the highest omega^2 below which the first may be a rigid one
 _FINEST = 32
+_LEAST = 3  # levels that tell an error
 
 
 @dataclass(frozen=True)
@@ -95,20 +97,42 @@ def _weight(study: Study, beams: CaseBeams, rows: Integers) -> Array:
 
 
 def _refine(study: Study, beams: CaseBeams, rows: Integers, weight: Array) -> tuple[int, Array]:
-    """Return the refinement, and the estimated relative error of every omega^2, by weight."""
+    """Return the refinement, and the estimated relative error of every omega^2, by weight.
+
+    Levels of the sample are judged by the one rule; the coarsest whose own values are near enough
+    is taken. The cases that are not in the sample have a margin.
+    """
     sample, modes = rows[:: max(1, min(_SAMPLE, len(rows) // 8))], study.solve.modes
-    refinement, coarse = 1, _omega2(beams.chains(sample, 1), modes)
+    levels: list[Array] = []
     while True:
-        fine = _omega2(beams.chains(sample, 2 * refinement), modes)
-        with np.errstate(all="ignore"):
-            change = np.abs(fine - coarse) / np.maximum(np.abs(fine), 1e-3 * fine[:, -1:])
-            change = np.nan_to_num(change) / weight[sample, None]
-        share = change.max(axis=0) * _SAFETY * 16 / 15
-        share = np.maximum(share, share.max() / 4)
-        error = share.max() * weight[rows].max() / 2
-        if error <= study.solve.tolerance or 2 * refinement > _FINEST:
-            return refinement, share
-        refinement, coarse = 2 * refinement, fine
+        groups = beams.chains(sample, 2 ** len(levels))
+        levels.append(_omega2(groups, modes))
+        if len(levels) < _LEAST:
+            continue
+        better, error = _judged(levels, max(map(_layer, groups)))
+        for level, omega2 in enumerate(levels):
+            size = np.maximum(np.abs(better), 1e-3 * np.abs(better[:, -1:]))
+            off = (np.abs(better - omega2) + error) / size / weight[sample, None]
+            share = np.max(np.nan_to_num(off), axis=0) * _SAFETY
+            share = np.maximum(share, share.max() / 4)
+            if share.max() * weight[rows].max() / 2 <= study.solve.tolerance:
+                return 2**level, share
+        if 2 ** len(levels) > _FINEST:
+            return 2 ** (len(levels) - 1), share
+
+
+def _judged(levels: list[Array], layer: float) -> tuple[Array, Array]:
+    """Return extrapolated omega^2 of every case and their errors, shape (cases, modes)."""
+    better, error = np.zeros((2, *levels[-1].shape))
+    with np.errstate(all="ignore"):
+        for case, rows in enumerate(np.stack(levels[-4:], axis=1)):
+            extrapolate(rows, len(rows) - 1, 1e-10, layer, better[case], error[case])
+    return better, error
+
+
+def _layer(chains: Chains) -> float:
+    """Return the largest |N| h^2/EI of segments: layers of the axial force, in segments."""
+    return float(np.max(np.abs(chains.axial_force) * chains.length**2 / chains.stiffness))
 
 
 def _omega2(groups: list[Chains], modes: int) -> Array:
