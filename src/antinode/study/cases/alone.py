@@ -38,8 +38,9 @@ def _solved(cases: Cases, i: int, points: int, family: FamilyName) -> _Solved | 
     """Return omega^2, its error and the shapes of a case; None where it cannot be solved."""
     solve = cases.study.solve
     try:
-        beam = cases.case(i).beam()
-        result = solve_modes(beam, solve.modes, tolerance=solve.tolerance, families=[family])
+        with np.errstate(all="ignore"):
+            beam = cases.case(i).beam()
+            result = solve_modes(beam, solve.modes, tolerance=solve.tolerance, families=[family])
     except (AntinodeError, ArithmeticError, CountingError):
         return None
     elastic = [k for k, m in enumerate(result.modes) if m.number][: solve.modes]

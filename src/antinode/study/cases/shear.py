@@ -18,6 +18,7 @@ import numpy as np
 from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES, FamilyName
+from antinode.errors import AntinodeError
 from antinode.modes.backends import choose
 from antinode.modes.shapes import ModelErrorParts, model_error_parts
 from antinode.riccati.chain import Chain
@@ -39,9 +40,16 @@ def model_errors(cases: Cases, beams: CaseBeams, family: FamilyName, found: Eige
     """
     effect = np.full(found.omega2.shape, np.nan)
     rows = np.flatnonzero(~failed(found.reason))
-    if not (FAMILIES[family].rotary and len(rows)):
-        return effect
-    bodies = _Bodies(cases, np.asarray(beams.scalars["mass"]))
+    if FAMILIES[family].rotary and len(rows):
+        with np.errstate(all="ignore"):
+            _estimate(_Bodies(cases, np.asarray(beams.scalars["mass"])), beams, found, rows, effect)
+    return effect
+
+
+def _estimate(
+    bodies: _Bodies, beams: CaseBeams, found: Eigenvalues, rows: Integers, effect: Array
+) -> None:
+    """Set the effect in some cases, a part of them at a time."""
     load = found.net_force / bodies.column("bending_stiffness").mean(axis=1)
     sample = _spread(rows, load)
     weights = _weights(bodies, beams, sample, found.omega2)
@@ -49,7 +57,6 @@ def model_errors(cases: Cases, beams: CaseBeams, family: FamilyName, found: Eige
     for some in np.array_split(rows, -(-len(rows) // wanted)):
         own = _between(load[sample], weights, load[some]) * bodies.factors(some)
         effect[some] = ModelErrorParts(*own.sum(axis=-1)).effect(found.omega2[some])
-    return effect
 
 
 def _spread(rows: Integers, load: Array) -> Integers:
@@ -109,11 +116,21 @@ class _Bodies:
         rotary = np.ones(EI.shape) if given else EI / EA
         return np.stack([rotary, EI**2 / EA / self.mass[rows, None]])[:, :, None]
 
-    def body(self, row: int) -> Beam:
-        """Return the body of a case as a beam, without its loads."""
+    def beams(self, rows: Integers) -> dict[bytes, Beam | None]:
+        """Return the bodies of some cases as beams without loads, by their structures.
+
+        None where a body cannot be one.
+        """
+        one_of = {self.cases.structure(row): row for row in rows.tolist()}
+        return {structure: self._beam(row) for structure, row in one_of.items()}
+
+    def _beam(self, row: int) -> Beam | None:
         case = self.cases.case(row)
         burnt = case.condition.burn_fraction
-        return body_as_beam(case.vehicle, case.vehicle.mass_distribution(burnt).x, burnt)
+        try:
+            return body_as_beam(case.vehicle, case.vehicle.mass_distribution(burnt).x, burnt)
+        except AntinodeError:
+            return None
 
 
 def _weights(bodies: _Bodies, beams: CaseBeams, sample: Integers, omega2: Array) -> Array:
@@ -123,15 +140,12 @@ def _weights(bodies: _Bodies, beams: CaseBeams, sample: Integers, omega2: Array)
     """
     found = np.full((2, len(sample), omega2.shape[1], len(bodies.x) - 1), np.nan)
     place = {row: at for at, row in enumerate(sample.tolist())}
-    known: dict[bytes, Beam] = {}
+    bare = bodies.beams(sample)
     for chains in beams.chains(sample, 1):
         for k, row in enumerate(chains.rows.tolist()):
-            structure = bodies.cases.structure(row)
-            if structure not in known:
-                known[structure] = bodies.body(row)
-            found[:, place[row]] = _parts(
-                known[structure], chain_of(chains, k), omega2[row], bodies.x
-            )
+            body = bare[bodies.cases.structure(row)]
+            if body is not None:
+                found[:, place[row]] = _parts(body, chain_of(chains, k), omega2[row], bodies.x)
     return found / bodies.factors(sample)
 
 

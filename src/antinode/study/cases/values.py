@@ -66,7 +66,8 @@ class Cases:
             with np.errstate(all="ignore"):
                 share = np.log(factors)[:, None] * variable.weights
             logarithms[variable.keys] = logarithms.get(variable.keys, 0.0) + share
-        return {keys: self._column(keys) * np.exp(share) for keys, share in logarithms.items()}
+        with np.errstate(all="ignore"):
+            return {keys: self._column(keys) * np.exp(share) for keys, share in logarithms.items()}
 
     def _with_rows(self, columns: Numbers, rows: Numbers) -> Numbers:
         """Gather single rows of columns into the columns."""

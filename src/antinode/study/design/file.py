@@ -186,7 +186,7 @@ class Tracking(Frozen):
         default=41, ge=9, le=501, strict=True, description="where shapes are compared along x"
     )
     doubtful: Annotated[Number, Field(ge=0, le=1)] = Field(
-        default=0.6, description="likeness (MAC) of neighbours below which a mode is marked"
+        default=0.8, description="likeness (MAC) of neighbours below which a mode is marked"
     )
 
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import sobol_indices as scipy_indices
 
 import antinode as an
-from antinode.study.cases.values import case_of
+from antinode.study.cases.values import Cases, case_of
 from antinode.study.design.points import points_of
 from antinode.study.sensitivity.command import read_uncertain
 from antinode.study.sensitivity.indices import sobol_indices
@@ -127,6 +127,33 @@ def test_small_deviations_follow_from_the_derivatives(folder):
         assert mode.indices.total == pytest.approx(parts**2 / np.sum(parts**2), abs=0.08)
         assert mode.band[0] < mode.nominal < mode.band[1]
         assert mode.elasticity[1] == pytest.approx(-0.5, abs=1e-5)
+
+
+def test_samples_that_diverge_are_counted_and_said(folder):
+    made = study(folder, "thrust=20%", "bending_stiffness=5%")
+    changed = made.case.condition.model_copy(update={"thrust": 190e3})
+    made = made.model_copy(update={"case": made.case.model_copy(update={"condition": changed})})
+    result = sensitivity(made, 32)
+    design = made.design.model_copy(update={"kind": "saltelli", "number": 32})
+    points = points_of(made.model_copy(update={"design": design}))
+    cases = Cases(made, points.variables, points.values(0))
+    kinds = [an.solve_modes(cases.case(i), 1, families=["bending"]).mode("bending", 1).kind
+             for i in range(len(cases))]  # fmt: skip
+    diverges = np.array([kind == "divergent" for kind in kinds])
+    first = result.modes[0]
+    assert first.without == diverges.sum() > 0
+    assert first.used == (~diverges.reshape(-1, 32).any(axis=0)).sum()
+    (told,) = result.left_out
+    assert (told["count"], told["first_case"]) == (diverges.sum(), np.flatnonzero(diverges)[0])
+    assert told["share"] == pytest.approx(diverges.mean())
+    assert f"the {first.used} of 32 samples" in told["message"]
+    assert "ranking" in told["message"]
+    assert result.warnings[0] is told
+    assert any("past buckling" in w["message"] for w in result.warnings[1:])
+    data = result.to_dict()
+    assert data["modes"][0]["cases_without_frequency"] == diverges.sum()
+    assert data["modes"][1]["samples_used"] == 32
+    assert data["warnings"][0]["count"] == diverges.sum()
 
 
 def test_the_command_prints_draws_and_stores(folder, tmp_path):

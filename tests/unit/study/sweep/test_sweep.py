@@ -10,12 +10,13 @@ import pytest
 
 import antinode as an
 from antinode.study.cases.values import case_of
-from antinode.study.design.file import Study
+from antinode.study.design.file import Tracking
 from antinode.study.design.points import points_of
-from antinode.study.sweep.figures import crossings
+from antinode.study.sweep.figures import crossings, plot_sweep
 from antinode.study.sweep.sweep import sweep
 from antinode.study.sweep.tracking import neighbours, track
 from cli_run import refused, run
+from study_text import study
 
 
 @pytest.fixture(scope="module")
@@ -28,10 +29,6 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def case(folder):
     return an.load_case(folder / "case.toml")
-
-
-def study(case, text):
-    return Study.model_validate({**tomllib.loads(text), "case": case})
 
 
 def each(case, points, names):
@@ -160,6 +157,21 @@ def test_longitudinal_modes_stand_beside_the_bending_ones(case):
     assert slower.values == pytest.approx(np.sqrt(0.05), rel=1e-9)
 
 
+def test_a_family_that_fails_in_one_case_leaves_the_others_alone(case):
+    text = """
+    inputs = [{ key = "axial_stiffness", values = [1, 1e300, 2] }]
+    solve = { modes = 2, families = ["bending", "longitudinal"] }
+    """
+    result = sweep(study(case, text))
+    assert result.reason.values.tolist() == [0, 17, 0]
+    assert np.isnan(result.frequency_hz[1]).all()
+    assert np.isnan(result.model_error[1]).all()
+    alone = sweep(study(case, text.replace("1e300, ", "")))
+    for name in ("frequency_hz", "model_error"):
+        known = result[name][[0, 2]].values
+        assert known == pytest.approx(alone[name].values, rel=1e-8, nan_ok=True)
+
+
 # --- tracking ---
 
 
@@ -217,6 +229,38 @@ def test_a_history_is_tracked_over_time(folder):
     case = case_of(first, {("condition", "cavitation_number"): [0.03]}, 0)
     hz = an.solve_modes(case, 4, families=["bending"]).frequencies_hz()
     assert result.tracked_frequency_hz[0].values == pytest.approx(hz, rel=1e-6)
+
+
+def test_doubtful_tracks_are_marked_counted_and_drawn(case):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    text = 'inputs = [{ key = "thrust", values = [0, 1e5, 2e5, 4e5] }]\nsolve.modes = 3\n'
+    limit = 0.999
+    made = study(case, text + f"tracking.doubtful = {limit}")
+    result = sweep(made)
+    assert np.array_equal(result.tracked_doubtful == 1, result.tracked_mac < limit)
+    doubtful = np.asarray(result.tracked_doubtful)
+    assert 0 < doubtful.sum() < doubtful.size
+    (told,) = [w for w in result.attrs["warnings"] if "tracking.doubtful" in w["message"]]
+    assert told["count"] == doubtful.any(axis=1).sum()
+    assert told["first_case"] == np.flatnonzero(doubtful.any(axis=1))[0]
+    assert "0.999" in told["message"]
+    crosses = [line for line in plot_sweep(made, result).axes[0].lines if line.get_marker() == "x"]
+    assert len(crosses[0].get_xdata()) == doubtful.sum()
+    usual = sweep(study(case, text + "tracking.doubtful = 0"))
+    assert int(usual.tracked_doubtful.sum()) == 0
+    assert not [w for w in usual.attrs["warnings"] if "tracking" in w["message"]]
+
+
+def test_a_veering_crossed_in_one_coarse_step_is_doubtful_by_default():
+    """Two modes that turn by 0.76 in the square of the cosine between neighbours."""
+    turn = np.arccos(np.sqrt(0.76))
+    shapes = np.array([[[np.cos(a), np.sin(a)], [-np.sin(a), np.cos(a)]] for a in (0, turn)])
+    omega2 = np.array([[1.0, 2.0], [1.0, 2.0]])
+    found = track(shapes, omega2, neighbours((2,)), np.ones(2), 2)
+    assert found.mac[1] == pytest.approx([0.76, 0.76])
+    assert Tracking().doubtful > 0.76
 
 
 # --- executors ---
