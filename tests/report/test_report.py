@@ -186,7 +186,7 @@ def test_command_line(folder, tmp_path):
     for arguments, words in (
         (("report", case, "-o", tmp_path / "r.odt"), ".html, .pdf"),
         (("report", case, "-o", tmp_path / "none" / "r.pdf"), "no folder"),
-        (("report", folder / "starter" / "stations.csv", "-o", tmp_path / "r.pdf"), "TOML"),
+        (("report", folder / "starter" / "stations.csv", "-o", tmp_path / "r.pdf"), ":burnt"),
     ):
         refused = run(*arguments)
         assert refused.code == 2

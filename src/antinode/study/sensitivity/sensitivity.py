@@ -176,11 +176,7 @@ def sensitivity(
     points = points_of(made)
     data = sweep(made, store, workers=workers, progress=progress)
     hz, effect = np.asarray(data["frequency_hz"]), np.asarray(data["model_error"])
-    known = np.isfinite(hz[: 2 * number]).all(axis=1).mean()
-    if known < 0.5:
-        raise ComputationError(
-            f"only {known:.0%} of the samples have all frequencies; narrow the distributions"
-        )
+    _check_known(hz[: 2 * number])
     slopes = local_slopes(made, points)
     modes = [
         _mode(points, name, (hz[:, k], effect[:, k]), number, slopes)
@@ -198,6 +194,15 @@ def sensitivity(
         left_out=left_out,
         warnings=(*left_out, *data.attrs["warnings"]),
     )
+
+
+def _check_known(hz: Array) -> None:
+    """Refuse to speak of frequencies that most samples do not have."""
+    known = np.isfinite(hz).all(axis=1).mean()
+    if known < 0.5:
+        raise ComputationError(
+            f"only {known:.0%} of the samples have all frequencies; narrow the distributions"
+        )
 
 
 def _left_out(modes: list[ModeSensitivity], hz: Array, number: int) -> Iterator[dict[str, Any]]:
