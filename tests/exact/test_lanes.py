@@ -8,15 +8,15 @@ from antinode.beam.representation import LIMITS
 from antinode.riccati import chain as readable
 from antinode.riccati import roots
 from antinode.riccati.chain import omega2_scale
+from antinode.riccati.lanes import bending, levels, pieces, workspace
 from antinode.riccati.lanes import calls as compiled
-from antinode.riccati.lanes import kernel as lanes
 from antinode.riccati.points import Point
 from antinode.riccati.segment import fundamental
 from chains import draw_case, draw_resonance
 from law_chains import bar_chain, bending_chain
 from reference import certain_count
 
-ENDS = tuple(lanes.ENDS)
+ENDS = tuple(bending.ENDS)
 
 
 def random_chain(rng, points):
@@ -136,11 +136,11 @@ def test_counts_at_resonances_of_parts(index):
 def test_the_series_are_products_of_the_readable_ones():
     """The minors of a transfer matrix, from g: ``2 G0 = g'^2 - g g''`` and so on."""
     rng = np.random.default_rng(3)
-    limit = lanes._STEP
+    limit = pieces.STEP
     n = rng.uniform(-1, 1, 200) * limit**2 / 2
     c = rng.uniform(-1, 1, 200) * (limit**2 / 2) ** 2
-    powers = (2 * c[:, None]) ** np.arange(lanes._IN_C), n[:, None] ** np.arange(lanes._IN_N)
-    G = np.einsum("mji,kj,ki->mk", lanes._T, *powers)
+    powers = (2 * c[:, None]) ** np.arange(pieces.IN_C), n[:, None] ** np.arange(pieces.IN_N)
+    G = np.einsum("mji,kj,ki->mk", pieces.SERIES, *powers)
     g, g1, g2, g3 = fundamental(np.ones(200), n, c)
     assert np.allclose(2 * G[0], g1**2 - g * g2, rtol=3e-14, atol=0)
     assert np.allclose(2 * G[1], g1 * g2 - g * g3, rtol=3e-14, atol=0)
@@ -176,18 +176,17 @@ def test_half_segments_are_those_of_the_beam(interpolation, refinement, accelera
     N[2] = N[2, 0]
     more = {"interpolation": interpolation, "axial_acceleration": acceleration}
     beam = Beam(x, m, EI, axial_force=N, **more)
-    whole = interpolation == "log"
-    varies, first, interval = (np.zeros(99, np.int64) for _ in range(3))
-    steps, own = np.empty((4, 99)), np.empty((4, 999))
-    lanes._varying(m, EI, N, acceleration, varies)
-    number = lanes.coarsest_steps(x, m, EI, varies, whole, LIMITS, interval, steps)
-    found = lanes.make_halves(
-        *(x, m, EI, N, acceleration, beam.mass_left, varies, whole, interval, steps, number),
-        *(refinement, first, own),
-    )
+    own = workspace.new_levels(0, n, 999, np.empty((0, 0)), 1)
+    own.x[:], own.mass[:], own.stiffness[:], own.force[:] = x, m, EI, N
+    own.mass_left[:] = beam.mass_left
+    interior = workspace.Interior(0, 0, acceleration, interpolation == "log", *LIMITS)
+    levels.mark_varying(own, acceleration)
+    number = levels.coarsest_steps(own, interior)
+    found = levels.make_halves(own, interior, number, refinement)
     chain = beam.chain("bending", refinement)
     assert found == len(chain.length)
-    for row, name in enumerate(("length", "mass", "stiffness", "axial_force")):
-        assert own[row, :found] == pytest.approx(getattr(chain, name), rel=1e-13)
+    mine = own.chain.length, own.chain.mass, own.chain.stiffness, own.chain.force
+    for values, name in zip(mine, NUMBERS, strict=True):
+        assert values[:found] == pytest.approx(getattr(chain, name), rel=1e-13)
     ends = x[0] + np.concatenate([[0.0], np.cumsum(chain.length)])
-    assert ends[first[: n + 1]] == pytest.approx(x, rel=1e-12)
+    assert ends[own.first] == pytest.approx(x, rel=1e-12)
