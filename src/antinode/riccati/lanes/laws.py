@@ -32,6 +32,15 @@ class Form(NamedTuple):
     """Whether supports between the ends are known."""
     shapes: bool
     """Whether `riccati.lanes.shapes` knows its modes."""
+    force_sign: float = 1.0
+    """Of the law's own force in what is carried."""
+
+    def sign(self, left: str, right: str) -> float:
+        """Return the sign of the law's characteristic function in the one that is computed.
+
+        A force stands at the start of a held end, and at the end of a free one.
+        """
+        return self.force_sign if left == right else 1.0
 
 
 def _bending_point(p: Point, L: float, EI0: float, m0: float) -> tuple[float, ...]:
@@ -53,7 +62,7 @@ _OF_WAVES = Form(_WAVE, wave.ENDS, _wave_point, supports=False, shapes=False)
 FORMS: dict[Law, Form] = {
     BENDING: Form(_BENDING, bending.ENDS, _bending_point, supports=True, shapes=True),
     BAR: _OF_WAVES,
-    SHAFT: _OF_WAVES,
+    SHAFT: _OF_WAVES._replace(force_sign=-1.0),
 }
 
 

@@ -39,6 +39,7 @@ class SingleChain:
 
     def __init__(self, chain: Chain) -> None:
         form, n = FORMS[chain.law], len(chain.length)
+        self.sign = form.sign(chain.left, chain.right)
         own = new_chain(form.number, form.ends[chain.left], form.ends[chain.right], n)
         own.length[:], own.mass[:], own.stiffness[:] = chain.length, chain.mass, chain.stiffness
         if chain.law.has_axial_force:
@@ -66,7 +67,7 @@ class SingleChain:
             raise FloatingPointError(f"omega^2 = {worst:g} is out of reach for this chain")
         count, value = np.empty(len(scaled), np.int64), np.empty(len(scaled))
         library().call("evaluate", self.chain, scaled, table, scratch.lanes, count, value)
-        return Evaluation(count, value)
+        return Evaluation(count, self.sign * value)
 
     def roots(self, below: int, number: int, width: float) -> Found:
         """Bracket and certify eigenvalues below + 1 ... below + number.
