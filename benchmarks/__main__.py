@@ -21,7 +21,10 @@ import numpy as np  # noqa: E402
 from scipy.linalg import eigh  # noqa: E402
 
 import antinode as an  # noqa: E402
-from antinode.riccati.lanes import kernel as lanes  # noqa: E402
+from antinode.riccati.lanes.laws import FORMS  # noqa: E402
+from antinode.riccati.lanes.library import library  # noqa: E402
+from antinode.riccati.lanes.workspace import LANES, OMEGA2, ROWS, new_chain, new_lanes  # noqa: E402  # noqa: E402
+from antinode.riccati.laws import BENDING  # noqa: E402
 
 from . import c, table  # noqa: E402
 from .beams import LENGTH, MODES, SEGMENTS, medians, smooth_case, steep_stations, stepped_beam  # noqa: E402
@@ -67,27 +70,26 @@ def step():
         return []
     _, m, EI, N = (values.reshape(-1, SEGMENTS)[0] for values in smooth_case(_rng(), 1))
     h, one = np.full(SEGMENTS, 1.0 / SEGMENTS), 36.0 / np.mean(EI)
-    own = h, m / np.mean(m), EI / np.mean(EI), N * one
-    starts_at, marks = np.empty(SEGMENTS + 1, np.int64), np.full(SEGMENTS + 1, -1)
-    pieces = lanes.count_pieces(*own, 1.2e5, starts_at)
-    table = np.empty((lanes.ROWS, pieces))
-    lanes.fill_table(*own, starts_at, marks, table)
-    state = np.zeros(64)
-    state[48:56] = np.linspace(100, 1.2e5, 8)
-    times = 1000
+    own = new_chain(FORMS[BENDING].number, 0, 0, SEGMENTS)
+    own.length[:], own.mass[:] = h, m / np.mean(m)
+    own.stiffness[:], own.force[:] = EI / np.mean(EI), N * one
+    table, lanes, times = np.empty((ROWS, 2 * SEGMENTS)), new_lanes(), 1000
+    pieces, state = library().call("prepare", own, 1.2e5, table)[0], lanes.state
+    table = np.ascontiguousarray(table[:, :pieces])
+    state[OMEGA2 : OMEGA2 + LANES] = np.linspace(100, 1.2e5, LANES)
 
     def ours():
-        library().call("repeat", table, state, pieces, times)
+        library().call("repeat", own, table, lanes, pieces, times)
 
     ours()
     expected = state[:48].copy()
-    for library in libraries.values():
-        c.repeat(library, table, state, pieces, 1)
+    for theirs in libraries.values():
+        c.repeat(theirs, table, state, pieces, 1)
         check("C", state[:40], expected[:40], 1e-9)
         assert np.array_equal(state[40:48], expected[40:48])
     theirs = [
-        lambda library=library: c.repeat(library, table, state, pieces, times)
-        for library in libraries.values()
+        lambda other=other: c.repeat(other, table, state, pieces, times)
+        for other in libraries.values()
     ]
     mine, *others = (t / (times * pieces * 8) for t in medians(101, ours, *theirs))
     what = "the same recursion in C, 8 lanes, -O3 -march=native"

@@ -11,7 +11,7 @@ SOURCE = Path(antinode.__file__).parent
 NAMES = set(FAMILIES)
 OBJECTS = {"BENDING", "LONGITUDINAL", "TORSION", "BAR", "SHAFT"}
 TABLES = {"riccati/laws", "beam/families"}
-COMPILED = {"riccati/lanes/calls"}
+COMPILED = {"riccati/lanes/laws"}
 TO_GO = {"study/eigenvalues", "study/identify/report"}
 
 

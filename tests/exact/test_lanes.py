@@ -8,15 +8,17 @@ from antinode.beam.representation import LIMITS
 from antinode.riccati import chain as readable
 from antinode.riccati import roots
 from antinode.riccati.chain import omega2_scale
+from antinode.riccati.chains import Chains
+from antinode.riccati.lanes import bending, levels, pieces, workspace
 from antinode.riccati.lanes import calls as compiled
-from antinode.riccati.lanes import kernel as lanes
+from antinode.riccati.laws import BAR, SHAFT
 from antinode.riccati.points import Point
 from antinode.riccati.segment import fundamental
 from chains import draw_case, draw_resonance
-from law_chains import bar_chain, bending_chain
+from law_chains import bar_chain, bending_chain, shaft_chain
 from reference import certain_count
 
-ENDS = tuple(lanes.ENDS)
+ENDS = tuple(bending.ENDS)
 
 
 def random_chain(rng, points):
@@ -49,10 +51,10 @@ def random_point(rng, node, inner, M, L, EI):
     )
 
 
-BARS = [(left, right) for left in ("free", "fixed") for right in ("free", "fixed")]
+WAVE_ENDS = [(left, right) for left in ("free", "fixed") for right in ("free", "fixed")]
 
 
-def random_bar(rng, ends, points):
+def random_wave(rng, make, ends, points):
     chain = random_chain(rng, False)
     n, L = len(chain.length), float(np.sum(chain.length))
     M, EA = float(chain.mass @ chain.length), float(np.median(chain.stiffness))
@@ -66,18 +68,19 @@ def random_bar(rng, ends, points):
         )
         for node in at
     )
-    return bar_chain(chain.length, chain.mass, chain.stiffness, *ends, what)
+    return make(chain.length, chain.mass, chain.stiffness, *ends, what)
 
 
 NUMBERS = ("length", "mass", "stiffness", "axial_force")
 
 
 @pytest.mark.parametrize("points", [False, True])
-@pytest.mark.parametrize("ends", BARS)
-def test_longitudinal_chains_agree_with_the_readable_form(ends, points):
-    rng = np.random.default_rng([BARS.index(ends), points])
-    for _ in range(60):
-        bar = random_bar(rng, ends, points)
+@pytest.mark.parametrize("ends", WAVE_ENDS)
+@pytest.mark.parametrize("make", [bar_chain, shaft_chain])
+def test_bars_and_shafts_agree_with_the_readable_form(make, ends, points):
+    rng = np.random.default_rng([WAVE_ENDS.index(ends), points])
+    for _ in range(30):
+        bar = random_wave(rng, make, ends, points)
         size = omega2_scale(bar)
         omega2 = size * np.concatenate(
             [10 ** rng.uniform(-2, 4, 11), -(10 ** rng.uniform(-2, 3, 6))]
@@ -93,6 +96,21 @@ def test_longitudinal_chains_agree_with_the_readable_form(ends, points):
         for mine, theirs in zip(found, expected, strict=True):
             assert mine.counts == theirs.counts
             assert mine.omega2 == pytest.approx(theirs.omega2, rel=1e-10, abs=1e-12 * size)
+
+
+@pytest.mark.parametrize("ends", WAVE_ENDS)
+@pytest.mark.parametrize("law", [BAR, SHAFT])
+def test_batches_of_bars_and_shafts_are_those_of_each_by_itself(law, ends):
+    rng, below = np.random.default_rng(WAVE_ENDS.index(ends)), int(ends == ("free", "free"))
+    h, (m, stiffness) = rng.uniform(0.5, 1.5, (1, 9)), rng.uniform(0.5, 1.5, (2, 70, 9))
+    m[3, 2], stiffness[5] = np.nan, 1e-9
+    chains = Chains(law, h, m, stiffness, np.zeros((70, 9)), *ends)
+    found = compiled.solve_chains(chains, below, 5, 1e-10)
+    assert np.flatnonzero(found.reason).tolist() == [3]
+    for row in (0, 1, 2, 4, 5, 6, 69):
+        expected = roots.find_eigenvalues(chains[row], below + 5, zeros=below)[below:]
+        assert found.omega2[row] == pytest.approx([v.omega2 for v in expected], rel=1e-10)
+        assert found.counts[row].tolist() == [list(v.counts) for v in expected]
 
 
 @pytest.mark.parametrize("points", [False, True])
@@ -136,11 +154,11 @@ def test_counts_at_resonances_of_parts(index):
 def test_the_series_are_products_of_the_readable_ones():
     """The minors of a transfer matrix, from g: ``2 G0 = g'^2 - g g''`` and so on."""
     rng = np.random.default_rng(3)
-    limit = lanes._STEP
+    limit = pieces.STEP
     n = rng.uniform(-1, 1, 200) * limit**2 / 2
     c = rng.uniform(-1, 1, 200) * (limit**2 / 2) ** 2
-    powers = (2 * c[:, None]) ** np.arange(lanes._IN_C), n[:, None] ** np.arange(lanes._IN_N)
-    G = np.einsum("mji,kj,ki->mk", lanes._T, *powers)
+    powers = (2 * c[:, None]) ** np.arange(pieces.IN_C), n[:, None] ** np.arange(pieces.IN_N)
+    G = np.einsum("mji,kj,ki->mk", pieces.SERIES, *powers)
     g, g1, g2, g3 = fundamental(np.ones(200), n, c)
     assert np.allclose(2 * G[0], g1**2 - g * g2, rtol=3e-14, atol=0)
     assert np.allclose(2 * G[1], g1 * g2 - g * g3, rtol=3e-14, atol=0)
@@ -176,18 +194,17 @@ def test_half_segments_are_those_of_the_beam(interpolation, refinement, accelera
     N[2] = N[2, 0]
     more = {"interpolation": interpolation, "axial_acceleration": acceleration}
     beam = Beam(x, m, EI, axial_force=N, **more)
-    whole = interpolation == "log"
-    varies, first, interval = (np.zeros(99, np.int64) for _ in range(3))
-    steps, own = np.empty((4, 99)), np.empty((4, 999))
-    lanes._varying(m, EI, N, acceleration, varies)
-    number = lanes.coarsest_steps(x, m, EI, varies, whole, LIMITS, interval, steps)
-    found = lanes.make_halves(
-        *(x, m, EI, N, acceleration, beam.mass_left, varies, whole, interval, steps, number),
-        *(refinement, first, own),
-    )
+    own = workspace.new_levels(0, n, 999, np.empty((0, 0)), 1)
+    own.x[:], own.mass[:], own.stiffness[:], own.force[:] = x, m, EI, N
+    own.mass_left[:] = beam.mass_left
+    interior = workspace.Interior(0, 0, acceleration, interpolation == "log", *LIMITS)
+    levels.mark_varying(own, acceleration)
+    number = levels.coarsest_steps(own, interior)
+    found = levels.make_halves(own, interior, number, refinement)
     chain = beam.chain("bending", refinement)
     assert found == len(chain.length)
-    for row, name in enumerate(("length", "mass", "stiffness", "axial_force")):
-        assert own[row, :found] == pytest.approx(getattr(chain, name), rel=1e-13)
+    mine = own.chain.length, own.chain.mass, own.chain.stiffness, own.chain.force
+    for values, name in zip(mine, NUMBERS, strict=True):
+        assert values[:found] == pytest.approx(getattr(chain, name), rel=1e-13)
     ends = x[0] + np.concatenate([[0.0], np.cumsum(chain.length)])
-    assert ends[first[: n + 1]] == pytest.approx(x, rel=1e-12)
+    assert ends[own.first] == pytest.approx(x, rel=1e-12)

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from .library import HELPERS, PREFIX
-from .structures import RESULTS
+from .structures import RESULTS, Kept
 
 _WORD = 8
 
@@ -70,7 +70,9 @@ def _compile_entry(function: Any, arguments: tuple[Any, ...]) -> str:
     import numba
     from numba import types
 
-    unpack, give = _unpacking(types.Tuple([numba.typeof(value) for value in arguments])), _give()
+    kept = [isinstance(value, Kept) for value in arguments]
+    given = [v.structure if isinstance(v, Kept) else v for v in arguments]
+    unpack, give = _unpacking(types.Tuple([numba.typeof(v) for v in given]), kept), _give()
 
     def entry(words):
         give(words, function(*unpack(words)))
@@ -80,8 +82,11 @@ def _compile_entry(function: Any, arguments: tuple[Any, ...]) -> str:
     return str(made._wrapper_name)
 
 
-def _unpacking(whole: Any) -> Any:
-    """Return an intrinsic that makes arguments of the words that `structures.packed` makes."""
+def _unpacking(whole: Any, kept: list[bool]) -> Any:
+    """Return an intrinsic that makes arguments of the words that `structures.packed` makes.
+
+    The words of those that are kept stand where one word says.
+    """
     from numba.core import cgutils, types
     from numba.extending import intrinsic
     from numba.np import arrayobj
@@ -118,7 +123,15 @@ def _unpacking(whole: Any) -> Any:
 
     def unpack(_typing, words):
         def generate(context, builder, _signature, arguments):
-            return value(context, builder, whole, arguments[0], RESULTS)[0]
+            items, place, words = [], RESULTS, arguments[0]
+            for typ, apart in zip(whole, kept, strict=True):
+                if apart:
+                    elsewhere = builder.inttoptr(word(builder, words, place), words.type)
+                    item, place = value(context, builder, typ, elsewhere, 0)[0], place + 1
+                else:
+                    item, place = value(context, builder, typ, words, place)
+                items.append(item)
+            return context.make_tuple(builder, whole, items)
 
         return whole(words), generate
 

@@ -1,50 +1,49 @@
-"""Python's side of the compiled chain: arrays in and out, one call for each question.
+"""The backend in compiled code: arrays in and out, one call for each question.
 
-This module is a backend, as `riccati.readable` is: both answer the same calls.
+As `riccati.readable` does, it answers the calls of a backend.
 """
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Sequence
-from typing import Any, NamedTuple
-
 import numpy as np
 import numpy.typing as npt
 
-from antinode.riccati import shapes
-from antinode.riccati.arrays import Array, Integers
-from antinode.riccati.chain import (
-    Chain,
-    Evaluation,
-    largest_wave_number,
-    omega2_scale,
-    point_steps,
-    state_units,
-)
+from antinode.riccati.arrays import Array
+from antinode.riccati.chain import Chain, Evaluation, omega2_scale
 from antinode.riccati.chain import evaluate as evaluate_readable
 from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
-from antinode.riccati.laws import BENDING, Squares
-from antinode.riccati.points import Point
+from antinode.riccati.laws import BENDING
 from antinode.riccati.reasons import CERTIFIED, CHAIN_TOO_SMALL, TABLE_TOO_SMALL
 from antinode.riccati.roots import Eigenvalue, check_certificate
 from antinode.riccati.roots import find_eigenvalues as find_readable
-from antinode.riccati.segment import LONGEST_STEP
 
-from . import kernel as lanes
-from . import shapes as lane_shapes
-from .kernel import ENDS, LANES
+from .laws import FORMS
 from .library import library
+from .scratch import Need, new_table, scratch
+from .single import Found, SingleChain
+from .states import mode_energies, mode_states
+from .workspace import NO_POINTS, POINT, ROWS, Interior, Nodes, Task, Warmth, new_chain
+from .workspace import Chain as Own
+
+__all__ = [
+    "certify_guesses",
+    "evaluate",
+    "find_eigenvalues",
+    "mode_energies",
+    "mode_states",
+    "name",
+    "solve_beam",
+    "solve_chains",
+]
 
 name = "numba"
 
-_KEPT = 16  # sizes of chains whose arrays a thread keeps
-_MOST_STEPS = 4096  # coarsest ones of a beam
-_MOST_NODES = 20_000  # whose frames are kept
+PARTED = 1e-7
+"""Relative distance of roots below which frames part them, and their shapes."""
+
 _MANY = 64  # chains of a batch from which integrals over shapes are worth their time
 _GUESSED = 1e-8  # relative width of brackets of the chain in the middle of a batch
-_ENDS = {(left, right): np.array([ENDS[left], ENDS[right]]) for left in ENDS for right in ENDS}
-_NO_POINTS = np.empty(0, np.int64), np.empty((0, 8)), np.empty((0, 8))
+_NO_NODES = Nodes(np.empty(0, np.int64), NO_POINTS, NO_POINTS)
 
 
 def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
@@ -68,56 +67,8 @@ def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
 
 def _needs_frames(chain: Chain) -> bool:
     """Tell whether supports stand where the compiled chain does not know them."""
-    known = range(1, len(chain.length)) if chain.law is BENDING else ()
+    known = range(1, len(chain.length)) if FORMS[chain.law].supports else ()
     return any(point.holds and point.node not in known for point in chain.points)
-
-
-def _point_rows(points: Sequence[Point], L: float, EI0: float, m0: float) -> Array:
-    """Return what `lanes` reads of each point, dimensionless, shape (points, 8)."""
-    table = np.zeros((len(points), 8))
-    for k, p in enumerate(points):
-        inertia = p.mass * p.offset**2 + p.inertia
-        turning = p.rotational_spring + p.own_load * p.offset if p.loads else 0.0
-        table[k] = (
-            *(p.mass / (m0 * L), p.mass * p.offset / (m0 * L**2), inertia / (m0 * L**3)),
-            *(p.spring * L**3 / EI0, turning * L / EI0),
-            *(float(0 in p.holds), float(1 in p.holds), p.compliance * EI0 / L),
-        )
-    return table
-
-
-def _bar_point_rows(points: Sequence[Point], L: float, EA0: float, m0: float) -> Array:
-    """Return the same of a longitudinal chain."""
-    table = np.zeros((len(points), 8))
-    for k, p in enumerate(points):
-        table[k, [0, 3, 7]] = p.mass / (m0 * L), p.spring * L / EA0, p.compliance * EA0 / L
-    return table
-
-
-def _workspace(n: int, roots: int) -> tuple[npt.NDArray[Any], ...]:
-    """Return the arrays that `lanes.find_roots` writes into."""
-    most = lanes.MOST_SAMPLES[0] + lanes.MOST_SAMPLES[1] * roots
-    return (
-        np.empty((most, 9)),
-        np.empty(most),
-        np.zeros(most, np.int64),
-        np.empty(n + 1, np.int64),
-        np.full(n + 1, -1),
-        np.empty((0, 8)),
-        np.zeros(8 * LANES),
-        np.zeros(LANES),
-        np.zeros(LANES),
-        np.zeros(roots),
-        np.zeros(roots, np.int64),
-        np.zeros((roots, 2), np.int64),
-        np.zeros((roots, 4), np.int64),
-        np.zeros(4, np.int64),
-        np.zeros(4),
-        np.zeros(4),
-        np.zeros((roots, 3)),
-        np.zeros(roots, np.int64),
-        np.zeros(roots, np.bool_),
-    )
 
 
 def solve_chains(chains: Chains, below: int, number: int, width: float) -> ChainRoots:
@@ -136,21 +87,20 @@ def solve_chains(chains: Chains, below: int, number: int, width: float) -> Chain
     width : float
         Relative width of the brackets in omega^2.
     """
-    length, mass, stiffness, force = _whole(chains)
-    n, ends, found = mass.shape[1], _ends(chains), ChainRoots.empty(len(chains), number)
-    neighbour, current, slope = np.full(1, -1), np.zeros(number), np.zeros(number)
-    weights, quotient, own = np.empty((3, 0, n)), np.zeros((2, number)), np.empty((4, n))
-    if len(chains) >= _MANY and len(length) == 1:
-        weights = _weights(_middle(chains), below, number, weights)
-    table, work, row = np.empty((lanes.ROWS, n + n // 2 + 8)), _scratch.work(n, number), 0
+    given, n = _whole(chains), chains.length.shape[1]
+    own, found = _own(chains), ChainRoots.empty(len(chains), number)
+    warmth = Warmth(
+        *(np.full(1, -1), np.zeros(number), np.zeros(number)),
+        *(_weights(chains, below, number), np.zeros((2, number))),
+    )
+    task, search, row = Task(below, width, True), scratch.search(number), 0
+    table = np.empty((ROWS, n + n // 2 + 8))
     while row < len(chains):
         row, columns, _ = library().call(
-            "solve_rows",
-            *(length, mass, stiffness, force, ends, below, width, weights, row),
-            *(neighbour, current, slope, quotient, own, table, work, *found),
+            "solve_rows", given, row, own, task, warmth, table, scratch.lanes, search, found
         )
         if row < len(chains):
-            neighbour[0], table = -1, np.empty((lanes.ROWS, columns + columns // 2))
+            warmth.neighbour[0], table = -1, new_table(columns)
     return found
 
 
@@ -161,34 +111,40 @@ def _whole(chains: Chains) -> tuple[Array, ...]:
     return np.ascontiguousarray(chains.length), *rest
 
 
-def _ends(chains: Chains) -> Integers:
-    return _ENDS[chains.left, chains.right]
+def _own(chains: Chains) -> Own:
+    """Return room for one of them."""
+    form = FORMS[chains.law]
+    ends = form.ends[chains.left], form.ends[chains.right]
+    return new_chain(form.number, *ends, chains.length.shape[1])
 
 
-def _middle(chains: Chains) -> Chain:
-    """Return the mean of all chains."""
+def _weights(chains: Chains, below: int, roots: int) -> Array:
+    """Return integrals of Y''^2, Y'^2 and Y^2 over the segments of the mean chain, (3, roots, n).
+
+    They tell how a root moves with the chain: what starts a search, and never what it finds. None
+    where they are not worth their time, or cannot be had: (3, 0, n).
+    """
+    none = np.empty((3, 0, chains.length.shape[1]))
+    if len(chains) < _MANY or len(chains.length) > 1 or not FORMS[chains.law].shapes:
+        return none
     with np.errstate(all="ignore"):
         m, EI, N = (np.mean(values, axis=0) for values in chains.arrays[1:])
-        columns = BENDING.named(m, EI, N)
-        return Chain(BENDING, chains.length[0], columns, chains.left, chains.right)
-
-
-def _weights(chain: Chain, below: int, roots: int, none: Array) -> Array:
-    """Return integrals of Y''^2, Y'^2 and Y^2 over the segments of a chain, (3, roots, n).
-
-    They tell how a root moves with the chain: what starts a search, and never what it finds.
-    """
-    with np.errstate(all="ignore"):
-        if not np.all(np.isfinite(chain.mass + chain.stiffness + chain.axial_force)):
+        if not np.all(np.isfinite(m + EI + N)):
             return none
-        found = SingleChain(chain).roots(below, roots, _GUESSED)
-        if found.reason != CERTIFIED:
-            return none
-        states = mode_states(chain, found.omega2, np.ones(roots, np.int64)).transpose(2, 1, 0)
-        squares = (states[:3, :, 1:] ** 2 + states[:3, :, :-1] ** 2) * (chain.length / 2)
-        weights = squares[::-1] / (squares[0] @ chain.mass)[:, None]
-        weights[0] /= chain.stiffness**2
-    return np.ascontiguousarray(weights) if np.all(np.isfinite(weights)) else none
+        h, columns = chains.length[0], chains.law.named(m, EI, N)
+        weights = _squares(Chain(chains.law, h, columns, chains.left, chains.right), below, roots)
+    return none if weights is None or not np.all(np.isfinite(weights)) else weights
+
+
+def _squares(chain: Chain, below: int, roots: int) -> Array | None:
+    found = SingleChain(chain).roots(below, roots, _GUESSED)
+    if found.reason != CERTIFIED:
+        return None
+    states = mode_states(chain, found.omega2, np.ones(roots, np.int64)).transpose(2, 1, 0)
+    squares = (states[:3, :, 1:] ** 2 + states[:3, :, :-1] ** 2) * (chain.length / 2)
+    weights = squares[::-1] / (squares[0] @ chain.mass)[:, None]
+    weights[0] /= chain.stiffness**2
+    return np.ascontiguousarray(weights)
 
 
 def certify_guesses(chains: Chains, guess: Array, below: int, width: float) -> ChainRoots:
@@ -209,27 +165,16 @@ def certify_guesses(chains: Chains, guess: Array, below: int, width: float) -> C
         With two evaluations a root where the guess held.
     """
     n, number = chains.axial_force.shape[1], guess.shape[1]
-    found, own = ChainRoots.empty(len(chains), number), np.zeros((4, n))
-    own[0], own[1], own[2] = chains.length[0], chains.mass[0], chains.stiffness[0]
+    found, own = ChainRoots.empty(len(chains), number), _own(chains)
+    own.length[:], own.mass[:] = chains.length[0], chains.mass[0]
+    own.stiffness[:] = chains.stiffness[0]
     library().call(
         "certify_rows",
-        *(own, np.ascontiguousarray(chains.axial_force), _ends(chains), below, width),
-        *(np.ascontiguousarray(guess), *found, np.empty((lanes.ROWS, n + 64))),
-        *(_scratch.work(n, number), np.zeros(n), np.zeros(number)),
+        *(np.ascontiguousarray(chains.axial_force), np.ascontiguousarray(guess), own),
+        *(np.zeros(n), Task(below, width, True), np.zeros(number), np.empty((ROWS, n + 64))),
+        *(scratch.lanes, scratch.search(number), found),
     )
     return found
-
-
-class Roots(NamedTuple):
-    """Consecutive eigenvalues of one chain, each with its certificate [rad^2/s^2]."""
-
-    reason: int
-    omega2: Array
-    low: Array
-    high: Array
-    counts: Integers
-    rounding: Array
-    evaluations: int
 
 
 def solve_beam(
@@ -248,156 +193,40 @@ def solve_beam(
     width : float
         Relative width of the brackets in omega^2.
     """
-    x, m, EI, N = (np.array(table, dtype=float, order="C") for table in beam[:4])
-    at, points, scaled = _NO_POINTS
-    if beam.points:
-        at = np.array([point.node for point in beam.points], dtype=np.int64)
-        points = _point_rows(beam.points, 1.0, 1.0, 1.0)
-        scaled = np.empty_like(points)
-    omega2, error, bracket = np.empty(number), np.empty(number), np.empty((number, 2))
-    counts, evaluations = np.empty((number, 2), np.int64), np.empty(1, np.int64)
-    columns, segments = 0, 64
+    form = FORMS[BENDING]
+    ends = form.ends[beam.left], form.ends[beam.right]
+    steepest, longest, halvings = beam.limits
+    interior = Interior(
+        *ends, float(beam.acceleration), beam.logarithmic, steepest, longest, halvings
+    )
+    nodes, need = _nodes(beam), Need()
     while True:
-        reason, size, _ = library().call(
-            "solve_levels",
-            *(x, m, EI, N, beam.acceleration, beam.mass_left, beam.logarithmic, beam.limits),
-            *(_ENDS[beam.left, beam.right], below, refinement, tolerance, width, at, points),
-            *(omega2, error, bracket, counts, evaluations),
-            *_scratch.levels(len(m), segments, number),
-            *(scaled, _scratch.table(columns), _scratch.work(1, number)),
+        kept = scratch.levels(form.number, len(beam.mass), number, need)
+        own = kept.structure
+        own.x[:], own.mass[:], own.stiffness[:] = beam.x, beam.mass, beam.stiffness
+        own.force[:] = beam.axial_force
+        if beam.acceleration:
+            own.mass_left[:] = beam.mass_left
+        reason, size, evaluations = library().call(
+            "solve_levels", kept, interior, nodes, below, refinement, tolerance, width
         )
         if reason == TABLE_TOO_SMALL:
-            columns = size
+            need = need._replace(pieces=size)
         elif reason == CHAIN_TOO_SMALL:
-            segments = size
+            need = need._replace(segments=size)
         else:
-            return BeamRoots(reason, omega2, error, bracket, counts, int(evaluations[0]), size)
+            break
+    omega2, error, bracket = own.omega2.copy(), own.error_omega2.copy(), own.bracket.copy()
+    return BeamRoots(reason, omega2, error, bracket, own.roots.counts.copy(), evaluations, size)
 
 
-class SingleChain:
-    """One chain made dimensionless, ready for evaluations and root searches.
-
-    Parameters
-    ----------
-    chain : Chain
-        Without supports that need frames.
-    """
-
-    def __init__(self, chain: Chain) -> None:
-        bar = chain.law is not BENDING
-        own = np.empty((4, len(chain.length)))
-        own[0], own[1], own[2] = chain.length, chain.mass, chain.stiffness
-        own[3] = 0.0 if bar else chain.axial_force
-        L, m0, stiffness = library().call("make_dimensionless", own, results="ddd")
-        self.own, self.unit = own, stiffness / (m0 * L ** (2 if bar else 4))
-        names = lanes.BAR_ENDS if bar else ENDS
-        self.ends = np.array([names[chain.left], names[chain.right]])
-        self.points: tuple[Integers, Array] | None = None
-        if chain.points:
-            marks = np.full(len(chain.length) + 1, -1)
-            marks[[point.node for point in chain.points]] = np.arange(len(chain.points))
-            rows = _bar_point_rows if bar else _point_rows
-            self.points = marks, rows(chain.points, L, stiffness, m0)
-
-    def _work(self, roots: int) -> tuple[Any, ...]:
-        work = _scratch.work(self.own.shape[1], roots)
-        return work if self.points is None else (*work[:4], *self.points, *work[6:])
-
-    def __call__(self, omega2: Array) -> Evaluation:
-        """Evaluate the chain at every omega^2 [rad^2/s^2]."""
-        scaled, work, columns = omega2 / self.unit, self._work(1), self.own.shape[1]
-        largest = float(np.max(np.abs(scaled)))
-        while True:
-            table = _scratch.table(columns)
-            pieces = library().call(
-                "prepare", *self.own, self.ends, largest, work[3], work[4], table
-            )[0]
-            if pieces <= table.shape[1]:
-                break
-            columns = pieces
-        if pieces < 0:
-            worst = float(np.max(np.abs(omega2)))
-            raise FloatingPointError(f"omega^2 = {worst:g} is out of reach for this chain")
-        count, value = np.empty(len(scaled), np.int64), np.empty(len(scaled))
-        library().call(
-            "evaluate_lanes", table, *work[3:6], self.ends, scaled, *work[6:9], count, value
-        )
-        return Evaluation(count, value)
-
-    def roots(self, below: int, number: int, width: float) -> Roots:
-        """Bracket and certify eigenvalues below + 1 ... below + number.
-
-        Parameters
-        ----------
-        width : float
-            Relative width of the brackets in omega^2.
-        """
-        work = self._work(number)
-        values, counts = np.zeros((5, number)), np.zeros((number, 2), np.int64)
-        root, slope, low, high, rounding = values
-        columns = self.own.shape[1] + 8
-        while True:
-            reason, total, _ = library().call(
-                "find_roots",
-                *(*self.own, self.ends, below, False, root, slope, width, True, low, high),
-                *(counts, rounding, _scratch.table(columns), work, 0.0),
-            )
-            if reason != TABLE_TOO_SMALL:
-                break
-            columns = total
-        values *= self.unit
-        return Roots(reason, root, low, high, counts, rounding, total)
-
-
-class _Scratch(threading.local):
-    """Arrays that root searches of one thread write into, kept from one to the next."""
-
-    def __init__(self) -> None:
-        self.kept: dict[tuple[int, int], tuple[Any, ...]] = {}
-        self.columns = np.empty((lanes.ROWS, 0))
-        self.intervals: tuple[Any, ...] = _intervals(0)
-        self.chain: tuple[Any, ...] = _chain(0)
-        self.by_level: dict[int, tuple[Any, ...]] = {}
-
-    def work(self, n: int, roots: int) -> tuple[Any, ...]:
-        """Return what `lanes.find_roots` writes into."""
-        if (n, roots) not in self.kept:
-            if len(self.kept) == _KEPT:
-                self.kept.clear()
-            self.kept[n, roots] = _workspace(n, roots)
-        return self.kept[n, roots]
-
-    def table(self, columns: int) -> Array:
-        """Return a table of pieces with at least so many columns."""
-        if self.columns.shape[1] < columns:
-            self.columns = np.empty((lanes.ROWS, columns + columns // 2))
-        return self.columns
-
-    def levels(self, intervals: int, segments: int, roots: int) -> tuple[Any, ...]:
-        """Return what `lanes.solve_levels` writes into, but for the last three."""
-        if len(self.intervals[0]) < intervals:
-            self.intervals = _intervals(intervals)
-        if self.chain[0].shape[1] < segments:
-            self.chain = _chain(2 * segments)
-        if roots not in self.by_level:
-            levels = np.empty((lanes.MOST_LEVELS, roots))
-            self.by_level[roots] = levels, tuple(np.empty(roots) for _ in range(7))
-        return *self.intervals, *self.chain, *self.by_level[roots]
-
-
-def _intervals(n: int) -> tuple[Array | Integers, ...]:
-    """Return which intervals vary, their first segments, and the interval and place of steps."""
-    most = _MOST_STEPS + n
-    integers = np.empty(n, np.int64), np.empty(n + 1, np.int64), np.empty(most, np.int64)
-    return *integers, np.empty((4, most))
-
-
-def _chain(n: int) -> tuple[Array | Integers, ...]:
-    """Return h, m, EI and N of segments, their first pieces and the marks of points."""
-    return np.empty((4, n)), np.empty(n + 1, np.int64), np.empty(n + 1, np.int64)
-
-
-_scratch = _Scratch()
+def _nodes(beam: Tables) -> Nodes:
+    """Return what stands at the breakpoints of a beam."""
+    if not beam.points:
+        return _NO_NODES
+    at = np.array([point.node for point in beam.points], dtype=np.int64)
+    rows = [FORMS[BENDING].point(point, 1.0, 1.0, 1.0) for point in beam.points]
+    return Nodes(at, np.array(rows), np.empty((len(rows), POINT)))
 
 
 def find_eigenvalues(
@@ -435,7 +264,7 @@ def _by_determinants(
             found += [Eigenvalue(k + 1, 0.0, (-distance, distance), counts) for k in range(*counts)]
         if number:
             roots = ready.roots(below, number, width)
-            near = np.diff(roots.omega2) <= lanes.PARTED * np.abs(roots.omega2[1:])
+            near = np.diff(roots.omega2) <= PARTED * np.abs(roots.omega2[1:])
             if roots.reason != CERTIFIED or np.any(near):
                 return None
             found += _listed(roots, below)
@@ -454,105 +283,9 @@ def _floor(ready: SingleChain, scale: float, zeros: int) -> tuple[float, int] | 
     return None
 
 
-def _listed(roots: Roots, below: int) -> list[Eigenvalue]:
+def _listed(roots: Found, below: int) -> list[Eigenvalue]:
     columns = (values.tolist() for values in roots[1:5])
     return [
         Eigenvalue(below + k + 1, omega2, (low, high), (counts[0], counts[1]))
         for k, (omega2, low, high, counts) in enumerate(zip(*columns, strict=True))
     ]
-
-
-def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
-    """Return the states of the modes at every node: `riccati.shapes.mode_states`, compiled.
-
-    Supports between the ends, clusters and longitudinal modes are left to the readable form.
-    """
-    fine = None if _is_special(chain, multiplicity) else shapes.split_for(chain, omega2)
-    if fine is None or len(fine.length) > _MOST_NODES:
-        return shapes.mode_states(chain, omega2, multiplicity)
-    keep = shapes.kept_nodes(chain, fine)
-    parts = [_states(fine, omega2[i : i + LANES]) for i in range(0, len(omega2), LANES)]
-    return np.concatenate([part[keep] for part in parts], axis=1)
-
-
-def _is_special(chain: Chain, multiplicity: Integers) -> bool:
-    held = any(point.holds for point in chain.points)
-    return chain.law is not BENDING or held or bool(np.any(multiplicity > 1))
-
-
-class _LaneChain:
-    """A chain in the units of up to eight modes; arrays are copied into the layout compiled for."""
-
-    def __init__(self, chain: Chain, omega2: Array) -> None:
-        n, number = len(chain.length), len(omega2)
-        lane = np.minimum(np.arange(LANES), number - 1)
-        self.scale = chain.scale_length(omega2)[lane]
-        arrays = chain.length, chain.mass, chain.stiffness, chain.axial_force
-        self.length, mass, stiffness, force = (np.array(values, order="C") for values in arrays)
-        self.units = state_units(chain, omega2)[lane]
-        self.EI, self.N, self.inertia = np.empty(n), np.empty((n, LANES)), np.empty((n, LANES))
-        library().call(
-            "scaled_chain",
-            *(mass, stiffness, force, omega2[lane], self.scale),
-            *(chain.reference[0], self.EI, self.N, self.inertia),
-        )
-        self.scratch = np.zeros((lane_shapes.SCRATCH, LANES))
-
-    def transfers(self) -> Array:
-        U = np.empty((len(self.length), 10, LANES))
-        library().call(
-            "transfers", self.length, self.EI, self.N, self.inertia, self.scale, self.scratch, U
-        )
-        return U
-
-
-def _states(fine: Chain, omega2: Array) -> Array:
-    own = _LaneChain(fine, omega2)
-    n, number = len(fine.length), len(omega2)
-    frames, backs = np.empty((2, n + 1, 8, LANES)), np.empty((2, n + 1, 3, LANES))
-    free = [i for end in (fine.left, fine.right) for i in range(4) if i not in fine.law.zeros(end)]
-    library().call(
-        "sweeps",
-        *(own.transfers(), *_lane_points(fine, omega2, own.units)),
-        *(np.array(free).reshape(2, 2), own.scratch, *frames, *backs),
-    )
-    node, state = np.zeros(LANES, np.int64), np.empty((4, LANES))
-    library().call("meet", *frames, own.scratch, node, state)
-    z = np.empty((n + 1, number, 4))
-    library().call("carry", *frames, *backs, node, state, own.units, z)
-    return z
-
-
-def _lane_points(chain: Chain, omega2: Array, units: Array) -> tuple[Integers, Array]:
-    """Return which point sits at every node (-1: none), and what `lane_shapes.sweeps` needs."""
-    marks, table = np.full(len(chain.length) + 1, -1), np.zeros((len(chain.points), 5, LANES))
-    lane = np.minimum(np.arange(LANES), len(omega2) - 1)
-    for k, point in enumerate(chain.points):
-        marks[point.node] = k
-        for kind, T, _ in point_steps(chain.law, point, omega2[lane], units):
-            if kind == "load":
-                table[k, :4] = T[:, 3, 0], T[:, 3, 1], T[:, 2, 0], T[:, 2, 1]
-                table[k, 3] = T[:, 2, 1]
-            else:
-                table[k, 4] = T[:, 1, 2]
-    return marks, table
-
-
-def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies:
-    """Return modal mass and stiffness of modes: `riccati.shapes.mode_energies`, compiled."""
-    phase = float(np.max(largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length))
-    if chain.law is not BENDING or phase > LONGEST_STEP:
-        return shapes.mode_energies(chain, states, omega2)
-    share, weight = shapes.gauss_rule(phase)
-    parts = []
-    for i in range(0, len(omega2), LANES):
-        own = _LaneChain(chain, omega2[i : i + LANES])
-        these = np.array(states[:, i : i + LANES], order="C")
-        total = np.zeros((4, *these[:-1, :, 0].shape))
-        library().call(
-            "squares",
-            *(own.length, own.EI, own.N, own.inertia, own.scale, own.units),
-            *(these, share, weight, own.scratch, total),
-        )
-        parts.append(total)
-    return shapes.energies(chain, states, Squares(*np.concatenate(parts, axis=2)))

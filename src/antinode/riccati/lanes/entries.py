@@ -9,94 +9,53 @@ from typing import Any
 
 import numpy as np
 
-from . import kernel, shapes
+from antinode.riccati.chains import ChainRoots
+
+from . import laws, levels, passing, rows, search, shapes
+from .structures import Kept
+from .workspace import (
+    NO_POINTS,
+    Interior,
+    Nodes,
+    Task,
+    Warmth,
+    new_chain,
+    new_lanes,
+    new_levels,
+    new_roots,
+    new_search,
+)
 
 _f1, _f2, _f3, _f4 = (np.zeros((1,) * dimensions) for dimensions in range(1, 5))
-_i1, _i2, _i3 = (np.zeros((1,) * dimensions, np.int64) for dimensions in range(1, 4))
-_b1 = np.zeros(1, np.bool_)
+_i1, _i2 = (np.zeros((1,) * dimensions, np.int64) for dimensions in range(1, 3))
 _i, _f, _b = 1, 1.0, True
 
-_chain = (_f1, _f1, _f1, _f1)
-_work = (
-    *(_f2, _f1, _i1, _i1, _i1, _f2, _f1, _f1, _f1, _f1, _i1, _i2, _i2, _i1, _f1, _f1, _f2, _i1),
-    _b1,
-)
-_lists = (_f2, _f2, _f2, _i3, _f2)
+_chain, _lanes, _search = new_chain(1, 1, 1, 1), new_lanes(), Kept(new_search(1))
+_task, _warmth = Task(1, 1.0, True), Warmth(_i1, _f1, _f1, _f3, _f2)
+_interior = Interior(1, 1, 1.0, True, 1.0, 1.0, 1)
+_found = ChainRoots.empty(1, 1)
 
 ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
-    "make_dimensionless": (kernel.make_dimensionless, (_f2,)),
-    "prepare": (kernel.prepare, (*_chain, _i1, _f, _i1, _i1, _f2)),
-    "evaluate_lanes": (
-        kernel.evaluate_lanes,
-        (_f2, _i1, _i1, _f2, _i1, _f1, _f1, _f1, _f1, _i1, _f1),
-    ),
+    "make_dimensionless": (rows.make_dimensionless, (_chain,)),
+    "prepare": (laws.prepare, (_chain, _f, _f2)),
+    "evaluate": (passing.evaluate, (_chain, _f1, _f2, _lanes, _i1, _f1)),
     "find_roots": (
-        kernel.find_roots,
-        (*_chain, _i1, _i, _b, _f1, _f1, _f, _b, _f1, _f1, _i2, _f1, _f2, _work, _f),
+        search.find_roots,
+        (_chain, _task, _b, _f, new_roots(1), _f2, _lanes, _search),
     ),
     "solve_rows": (
-        kernel.solve_rows,
-        (
-            _f2,
-            _f2,
-            _f2,
-            _f2,
-            _i1,
-            _i,
-            _f,
-            _f3,
-            _i,
-            _i1,
-            _f1,
-            _f1,
-            _f2,
-            _f2,
-            _f2,
-            _work,
-            *_lists,
-            _i1,
-            _i1,
-        ),
+        rows.solve_rows,
+        ((_f2, _f2, _f2, _f2), _i, _chain, _task, _warmth, _f2, _lanes, _search, _found),
     ),
     "certify_rows": (
-        kernel.certify_rows,
-        (_f2, _f2, _i1, _i, _f, _f2, *_lists, _i1, _i1, _f2, _work, _f1, _f1),
+        rows.certify_rows,
+        (_f2, _f2, _chain, _f1, _task, _f1, _f2, _lanes, _search, _found),
     ),
     "solve_levels": (
-        kernel.solve_levels,
+        levels.solve_levels,
         (
-            _f1,
-            _f2,
-            _f2,
-            _f2,
-            _f,
-            _f1,
-            _b,
-            (_f, _f, _i),
-            _i1,
-            _i,
-            _i,
-            _f,
-            _f,
-            _i1,
-            _f2,
-            _f1,
-            _f1,
-            _f2,
-            _i2,
-            _i1,
-            _i1,
-            _i1,
-            _i1,
-            _f2,
-            _f2,
-            _i1,
-            _i1,
-            _f2,
-            (_f1,) * 7,
-            _f2,
-            _f2,
-            _work,
+            *(Kept(new_levels(0, 1, 1, _f2, 1)), _interior, Nodes(_i1, NO_POINTS, NO_POINTS)),
+            *(_i, _i, _f, _f),
         ),
     ),
     "scaled_chain": (shapes.scaled_chain, (_f1, _f1, _f1, _f1, _f1, _f, _f1, _f2, _f2)),
@@ -108,5 +67,5 @@ ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
         shapes.squares,
         (_f1, _f1, _f2, _f2, _f1, _f2, _f3, _f1, _f1, _f2, _f3),
     ),
-    "repeat": (kernel.repeat, (_f2, _f1, _i, _i)),
+    "repeat": (passing.repeat, (_chain, _f2, _lanes, _i, _i)),
 }

@@ -35,7 +35,7 @@ HELPERS |= {"sqrt": "sqrt", "numba_frexp": "frexp", "numba_ldexp": "ldexp"}
 
 _FOLDER = Path(__file__).parent
 _MORE_SOURCES = [_FOLDER.parent / name for name in ("convergence.py", "reasons.py")]
-_NOT_COMPILED = {"__init__.py", "calls.py"}
+_NOT_COMPILED = {"__init__.py", "calls.py", "scratch.py", "single.py", "states.py"}
 _CHECK = 32  # bytes of a digest, before the code
 _PATIENCE = 2.0  # s
 _loading = threading.Lock()

@@ -17,7 +17,7 @@ import math
 import numpy as np
 
 from .compiling import compiled
-from .kernel import LANES
+from .workspace import LANES
 
 TERMS = 16
 """Most terms of the series: twice what the longest segment needs."""

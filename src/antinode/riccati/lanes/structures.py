@@ -4,15 +4,36 @@ from __future__ import annotations
 
 import ctypes
 import struct
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-RESULTS = 3
+RESULTS = 4
 """Words at the start, for what the function returns."""
 
 _none = struct.pack(f"{8 * RESULTS}x")
 _first_byte = ctypes.c_char.from_buffer
+
+
+Structure = TypeVar("Structure", bound=tuple[Any, ...])
+
+
+class Kept(Generic[Structure]):
+    """A structure whose words are written once; a call takes their address.
+
+    Parameters
+    ----------
+    structure : tuple
+        What `packed` takes; its arrays are kept.
+    """
+
+    def __init__(self, structure: Structure) -> None:
+        self.structure = structure
+        words: list[Any] = []
+        kinds: list[str] = []
+        _collect(structure, words, kinds)
+        self._words = ctypes.create_string_buffer(struct.pack("=" + "".join(kinds), *words))
+        self.address = ctypes.addressof(self._words)
 
 
 def packed(arguments: tuple[Any, ...]) -> bytearray:
@@ -21,7 +42,7 @@ def packed(arguments: tuple[Any, ...]) -> bytearray:
     Parameters
     ----------
     arguments : tuple
-        Contiguous arrays of eight-byte numbers, or of bool; numbers; and tuples of them.
+        Contiguous arrays of eight-byte numbers, or of bool; numbers; tuples of them; kept ones.
     """
     words: list[Any] = []
     kinds: list[str] = []
@@ -37,15 +58,20 @@ def _collect(arguments: tuple[Any, ...], words: list[Any], kinds: list[str]) -> 
             kinds.append("q" * (1 + value.ndim))
         elif isinstance(value, tuple):
             _collect(value, words, kinds)
+        elif isinstance(value, Kept):
+            words.append(value.address)
+            kinds.append("q")
         else:
             words.append(value)
             kinds.append("d" if isinstance(value, float) else "q")
 
 
 def _address(array: Any) -> int:
+    if not array.size:
+        return 0
     try:
         return ctypes.addressof(_first_byte(array))
-    except (TypeError, ValueError):  # read-only, or empty
+    except (TypeError, ValueError):  # read-only
         if not array.flags.c_contiguous:
             raise
         return int(array.ctypes.data)

@@ -1,0 +1,114 @@
+"""States and integrals of modes in compiled code, eight modes side by side."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from antinode.riccati import shapes
+from antinode.riccati.arrays import Array, Integers
+from antinode.riccati.chain import Chain, largest_wave_number, point_steps, state_units
+from antinode.riccati.laws import Squares
+from antinode.riccati.segment import LONGEST_STEP
+
+from . import shapes as lane_shapes
+from .laws import FORMS
+from .library import library
+from .workspace import LANES
+
+_MOST_NODES = 20_000  # whose frames are kept
+
+
+def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
+    """Return the states of the modes at every node: `riccati.shapes.mode_states`, compiled.
+
+    Supports between the ends, clusters and longitudinal modes are left to the readable form.
+    """
+    fine = None if _is_special(chain, multiplicity) else shapes.split_for(chain, omega2)
+    if fine is None or len(fine.length) > _MOST_NODES:
+        return shapes.mode_states(chain, omega2, multiplicity)
+    keep = shapes.kept_nodes(chain, fine)
+    parts = [_states(fine, omega2[i : i + LANES]) for i in range(0, len(omega2), LANES)]
+    return np.concatenate([part[keep] for part in parts], axis=1)
+
+
+def _is_special(chain: Chain, multiplicity: Integers) -> bool:
+    held = any(point.holds for point in chain.points)
+    return not FORMS[chain.law].shapes or held or bool(np.any(multiplicity > 1))
+
+
+class _LaneChain:
+    """A chain in the units of up to eight modes; arrays are copied into the layout compiled for."""
+
+    def __init__(self, chain: Chain, omega2: Array) -> None:
+        n, number = len(chain.length), len(omega2)
+        lane = np.minimum(np.arange(LANES), number - 1)
+        self.scale = chain.scale_length(omega2)[lane]
+        arrays = chain.length, chain.mass, chain.stiffness, chain.axial_force
+        self.length, mass, stiffness, force = (np.array(values, order="C") for values in arrays)
+        self.units = state_units(chain, omega2)[lane]
+        self.EI, self.N, self.inertia = np.empty(n), np.empty((n, LANES)), np.empty((n, LANES))
+        library().call(
+            "scaled_chain",
+            *(mass, stiffness, force, omega2[lane], self.scale),
+            *(chain.reference[0], self.EI, self.N, self.inertia),
+        )
+        self.scratch = np.zeros((lane_shapes.SCRATCH, LANES))
+
+    def transfers(self) -> Array:
+        U = np.empty((len(self.length), 10, LANES))
+        library().call(
+            "transfers", self.length, self.EI, self.N, self.inertia, self.scale, self.scratch, U
+        )
+        return U
+
+
+def _states(fine: Chain, omega2: Array) -> Array:
+    own = _LaneChain(fine, omega2)
+    n, number = len(fine.length), len(omega2)
+    frames, backs = np.empty((2, n + 1, 8, LANES)), np.empty((2, n + 1, 3, LANES))
+    free = [i for end in (fine.left, fine.right) for i in range(4) if i not in fine.law.zeros(end)]
+    library().call(
+        "sweeps",
+        *(own.transfers(), *_lane_points(fine, omega2, own.units)),
+        *(np.array(free).reshape(2, 2), own.scratch, *frames, *backs),
+    )
+    node, state = np.zeros(LANES, np.int64), np.empty((4, LANES))
+    library().call("meet", *frames, own.scratch, node, state)
+    z = np.empty((n + 1, number, 4))
+    library().call("carry", *frames, *backs, node, state, own.units, z)
+    return z
+
+
+def _lane_points(chain: Chain, omega2: Array, units: Array) -> tuple[Integers, Array]:
+    """Return which point sits at every node (-1: none), and what `lane_shapes.sweeps` needs."""
+    marks, table = np.full(len(chain.length) + 1, -1), np.zeros((len(chain.points), 5, LANES))
+    lane = np.minimum(np.arange(LANES), len(omega2) - 1)
+    for k, point in enumerate(chain.points):
+        marks[point.node] = k
+        for kind, T, _ in point_steps(chain.law, point, omega2[lane], units):
+            if kind == "load":
+                table[k, :4] = T[:, 3, 0], T[:, 3, 1], T[:, 2, 0], T[:, 2, 1]
+                table[k, 3] = T[:, 2, 1]
+            else:
+                table[k, 4] = T[:, 1, 2]
+    return marks, table
+
+
+def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies:
+    """Return modal mass and stiffness of modes: `riccati.shapes.mode_energies`, compiled."""
+    phase = float(np.max(largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length))
+    if not FORMS[chain.law].shapes or phase > LONGEST_STEP:
+        return shapes.mode_energies(chain, states, omega2)
+    share, weight = shapes.gauss_rule(phase)
+    parts = []
+    for i in range(0, len(omega2), LANES):
+        own = _LaneChain(chain, omega2[i : i + LANES])
+        these = np.array(states[:, i : i + LANES], order="C")
+        total = np.zeros((4, *these[:-1, :, 0].shape))
+        library().call(
+            "squares",
+            *(own.length, own.EI, own.N, own.inertia, own.scale, own.units),
+            *(these, share, weight, own.scratch, total),
+        )
+        parts.append(total)
+    return shapes.energies(chain, states, Squares(*np.concatenate(parts, axis=2)))

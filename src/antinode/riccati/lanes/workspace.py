@@ -1,0 +1,275 @@
+"""What compiled code takes and writes into: structures of arrays, their rows and columns, by name.
+
+Numbers of chains are dimensionless by the chain's length, mean stiffness and mean m.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from antinode.riccati.arrays import Array, Integers
+
+LANES = 8
+"""omega^2 that are passed side by side."""
+
+# Rows of the table of pieces, one column a piece. All laws:
+INERTIA, LENGTH, FLEXIBILITY = 17, 22, 23
+"""2c/omega^2 of bending (c/omega^2 of a wave), h, and 1/EI (or 1 over what stands for it)."""
+RATIO = 18
+"""Of the units of this piece to those of the one before: of b, or of a wave's force."""
+# Bending alone:
+SERIES_0, SERIES_1, SERIES_2, SERIES_3 = 0, 4, 8, 12
+"""Four coefficients each, of the powers of 2c in G0 ... G3."""
+FORCE = 16
+"""n = N h^2/EI."""
+RATIO_E, RATIO_D, RATIO_F = 19, 20, 21
+ROWS = 24
+
+# The state: lanes side by side, row after row. What a frame of bending has as minors a, b, 2e, 2d,
+# 2f in the units of the last piece; a wave has u where a stands, and its force where b stands.
+A, B, E, D, F = (row * LANES for row in range(5))
+U, Q = A, B
+COUNT, OMEGA2, POWER = (row * LANES for row in range(5, 8))
+"""Eigenvalues below, omega^2 itself, and the power of two that was taken out."""
+CARRIED = 5
+"""Rows that are carried along."""
+STATE = 8 * LANES
+
+# Columns of the points, dimensionless.
+MASS, FIRST_MOMENT, ROTARY, SPRING, TURNING, HOLDS_Y, HOLDS_THETA, COMPLIANCE = range(8)
+POINT = 8
+
+# Columns of the samples of a search.
+AT, BELOW, VALUE, SHIFT, CARRIED_FROM = range(5)
+"""omega^2, count, characteristic function and its power of two; from there on what was carried."""
+SAMPLE = CARRIED_FROM + CARRIED
+
+# Columns of what a root asks for next.
+FIRST, SECOND, BESIDE = range(3)
+"""Two samples, and how far from the first another may stand (0: none)."""
+
+# Rows of the steps of a beam.
+START, SIZE, PHASE, STEEP = range(4)
+"""Start and size as shares of the interval; and what is compared where they are halved."""
+
+MOST_SAMPLES = 256, 64
+"""Of a search, and more for every root."""
+
+MOST_LEVELS = 7
+"""How often a beam is solved, with steps halved each time."""
+
+MOST_STEPS = 4096
+"""Coarsest ones of a beam, and one for every interval."""
+
+NO_POINTS = np.empty((0, POINT))
+
+
+class Chain(NamedTuple):
+    """One chain."""
+
+    law: int
+    """As `left` and `right`, by number (`riccati.lanes.laws`)."""
+    left: int
+    right: int
+    length: Array
+    """Of every segment, as are mass, stiffness and force (0 where a law has none), shape (n,)."""
+    mass: Array
+    stiffness: Array
+    force: Array
+    starts: Integers
+    """First piece of every segment, shape (n + 1,); set when the table is filled."""
+    marks: Integers
+    """Which point stands at every node, -1 for none, shape (n + 1,)."""
+    points: Array
+    """Shape (points, 8)."""
+
+
+class Lanes(NamedTuple):
+    """What one pass of eight omega^2 carries."""
+
+    state: Array
+    sign: Array
+    """Of a where a node is held, to be compared behind it; 0 elsewhere."""
+    value: Array
+    """The characteristic function, when the pass is done."""
+
+
+class Task(NamedTuple):
+    """What is wanted of a search: eigenvalues below + 1 and on."""
+
+    below: int
+    width: float
+    """Relative, of the brackets in omega^2."""
+    certify: bool
+    """Or else each is only enclosed, and predicted to a tenth of the width."""
+
+
+class Roots(NamedTuple):
+    """Consecutive eigenvalues that are searched."""
+
+    omega2: Array
+    """Guesses before, roots after."""
+    slope: Array
+    """Of the divided function, kept for the next chain; 0 where none is known."""
+    low: Array
+    high: Array
+    counts: Integers
+    """Eigenvalues below either end of the bracket, shape (roots, 2)."""
+    rounding: Array
+
+
+class Search(NamedTuple):
+    """What a search keeps: its samples, what it asks for, and what each root knows."""
+
+    samples: Array
+    asked: Array
+    owner: Integers
+    """Of every sample asked for: the root that did, or -1."""
+    before: Array
+    """Width of the bracket at the last turn."""
+    stuck: Integers
+    """Turns since it halved."""
+    at: Integers
+    """Samples at the two ends of the bracket, shape (roots, 2)."""
+    own: Integers
+    """Samples the root asked for last, newest first, -1 for none, shape (roots, 4)."""
+    wanted: Array
+    requests: Integers
+    certifies: Array
+    near: Integers
+    x: Array
+    y: Array
+
+
+class Warmth(NamedTuple):
+    """What one chain of a batch leaves to the next."""
+
+    neighbour: Integers
+    """The row solved before, or -1."""
+    omega2: Array
+    slope: Array
+    weights: Array
+    """Integrals of Y''^2, Y'^2 and Y^2 of given shapes over the segments, (3, shapes, n)."""
+    quotient: Array
+    """Rayleigh's quotients of these shapes: of this row, and of the one before."""
+
+
+class Levels(NamedTuple):
+    """A beam, its steps, its chain on each level, and its results."""
+
+    x: Array
+    mass: Array
+    """As are stiffness and force: at both ends of every interval, shape (n, 2)."""
+    stiffness: Array
+    force: Array
+    mass_left: Array
+    varies: Integers
+    """Whether anything does, for every interval."""
+    first: Integers
+    """First segment of every interval, shape (n + 1,)."""
+    interval: Integers
+    """Of every step."""
+    steps: Array
+    chain: Chain
+    """With room for more segments than are used."""
+    levels: Array
+    """Roots, level by level."""
+    roots: Roots
+    better: Array
+    """Extrapolated roots, and their errors."""
+    error: Array
+    omega2: Array
+    """In SI, as are the errors and the brackets."""
+    error_omega2: Array
+    bracket: Array
+    table: Array
+    lanes: Lanes
+    search: Search
+
+
+class Interior(NamedTuple):
+    """How a beam is held, and what it is like inside its intervals."""
+
+    left: int
+    right: int
+    acceleration: float
+    logarithmic: bool
+    steepest: float
+    longest: float
+    halvings: int
+
+
+class Nodes(NamedTuple):
+    """Points of a beam: their breakpoints, their numbers in SI, and room for dimensionless ones."""
+
+    at: Integers
+    points: Array
+    scaled: Array
+
+
+def new_lanes() -> Lanes:
+    """Return room for a pass."""
+    return Lanes(np.zeros(STATE), np.zeros(LANES), np.zeros(LANES))
+
+
+def new_roots(roots: int) -> Roots:
+    """Return room for the roots of one chain."""
+    omega2, slope, low, high, rounding = np.zeros((5, roots))
+    return Roots(omega2, slope, low, high, np.zeros((roots, 2), np.int64), rounding)
+
+
+def new_search(roots: int) -> Search:
+    """Return room for a search."""
+    most = MOST_SAMPLES[0] + MOST_SAMPLES[1] * roots
+    return Search(
+        samples=np.empty((most, SAMPLE)),
+        asked=np.empty(most),
+        owner=np.zeros(most, np.int64),
+        before=np.zeros(roots),
+        stuck=np.zeros(roots, np.int64),
+        at=np.zeros((roots, 2), np.int64),
+        own=np.zeros((roots, 4), np.int64),
+        wanted=np.zeros((roots, 3)),
+        requests=np.zeros(roots, np.int64),
+        certifies=np.zeros(roots, np.bool_),
+        near=np.zeros(4, np.int64),
+        x=np.zeros(4),
+        y=np.zeros(4),
+    )
+
+
+def new_chain(law: int, left: int, right: int, segments: int) -> Chain:
+    """Return room for a chain without points."""
+    marks = np.full(segments + 1, -1)
+    starts = np.empty(segments + 1, np.int64)
+    length, mass, stiffness, force = np.zeros((4, segments))
+    return Chain(law, left, right, length, mass, stiffness, force, starts, marks, NO_POINTS)
+
+
+def new_levels(law: int, intervals: int, segments: int, table: Array, roots: int) -> Levels:
+    """Return room for a beam of so many intervals, and for chains of up to so many segments."""
+    steps, (mass, stiffness, force) = MOST_STEPS + intervals, np.empty((3, intervals, 2))
+    return Levels(
+        x=np.empty(intervals + 1),
+        mass=mass,
+        stiffness=stiffness,
+        force=force,
+        mass_left=np.zeros(intervals + 1),
+        varies=np.empty(intervals, np.int64),
+        first=np.empty(intervals + 1, np.int64),
+        interval=np.empty(steps, np.int64),
+        steps=np.empty((4, steps)),
+        chain=new_chain(law, 0, 0, segments),
+        levels=np.empty((MOST_LEVELS, roots)),
+        roots=new_roots(roots),
+        better=np.empty(roots),
+        error=np.empty(roots),
+        omega2=np.empty(roots),
+        error_omega2=np.empty(roots),
+        bracket=np.empty((roots, 2)),
+        table=table,
+        lanes=new_lanes(),
+        search=new_search(roots),
+    )
