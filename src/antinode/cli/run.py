@@ -56,6 +56,10 @@ def _run(arguments: Sequence[str] | None) -> int:
         return _fail(_usage(error), 2)
     except AntinodeError as error:
         return _fail(str(error), error.exit_code)
+    except SystemExit as end:
+        if isinstance(end.__context__, BrokenPipeError):  # rich ends so where nobody reads
+            return 0
+        raise
     except (KeyboardInterrupt, BrokenPipeError) as error:
         _close_stdout()
         return _fail("interrupted", 130) if isinstance(error, KeyboardInterrupt) else 0

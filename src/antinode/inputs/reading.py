@@ -6,6 +6,7 @@ Nothing is ever written here.
 
 from __future__ import annotations
 
+import codecs
 import csv
 import difflib
 import math
@@ -20,6 +21,7 @@ from antinode.text import nearest, short
 from .override import override
 from .toml_reading import parse_toml
 from .units import unit_factor
+from .written import number
 
 MOST_TOML_BYTES = 2_000_000
 MOST_CSV_BYTES = 20_000_000
@@ -76,6 +78,9 @@ def toml_source(path: Path) -> str:
     return read_text(path, MOST_TOML_BYTES, "a TOML file")
 
 
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
+
 def read_text(path: Path, most: int, what: str) -> str:
     """Read a text of at most so many bytes, with plain line ends.
 
@@ -85,11 +90,12 @@ def read_text(path: Path, most: int, what: str) -> str:
         If it cannot be read, or is no text.
     """
     try:
-        text = read_bytes(path, most, what).decode("utf-8-sig")
+        data = read_bytes(path, most, what)
+        text = data.decode("utf-16" if data[:2] in _UTF_16 else "utf-8-sig")
         return text.replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
         raise InputError(
-            f"{path}: this is not UTF-8 text; save it as text, or check that this is {what}"
+            f"{path}: this is not UTF-8 text; save it as UTF-8, or check that this is {what}"
         ) from error
 
 
@@ -285,12 +291,13 @@ _NEEDED = "it needs a header such as 'x [m], mass_per_length [kg/m], ...' and tw
 
 def _rows(text: str, path: Path) -> Iterator[Row]:
     """Yield the header and the rows that have anything in them."""
-    count = 0
+    count, mark = 0, _separator(text)
     for line, content in enumerate(text.splitlines(), 1):
         if content.lstrip().startswith("#"):
             continue
         try:
-            cells = [cell.strip() for cell in next(csv.reader([content], skipinitialspace=True))]
+            row = next(csv.reader([content], delimiter=mark, skipinitialspace=True))
+            cells = [cell.strip() for cell in row]
         except csv.Error as error:
             raise InputError(
                 f"{path}, line {line}: no CSV table ({error}); check that it is the right file"
@@ -302,22 +309,51 @@ def _rows(text: str, path: Path) -> Iterator[Row]:
             yield Row(line, cells)
 
 
+def _separator(text: str) -> str:
+    """Return what separates the cells: the mark that the header has most of."""
+    lines = (
+        line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")
+    )
+    header = next(lines, "")
+    return max(",;\t", key=header.count)
+
+
 def _header(cells: list[str], columns: Sequence[str], path: Path) -> tuple[list[str], list[float]]:
     """Return the names of the columns and the factors to their SI units."""
     where = f"{path}: header"
-    if len(cells) == 1 and ({";", "\t"} & set(cells[0])):
-        raise InputError(f"{where} is {short(cells[0])}; separate the cells by commas")
     names: list[str] = []
     factors: list[float] = []
     for cell in cells:
-        name, bracket, unit = cell.partition("[")
-        name = name.strip()
+        name, bracket, unit = _in_brackets(cell).partition("[")
+        name = _column_name(name.strip(), columns)
         _check_column(name, columns, where)
         if name in names:
             raise InputError(f"{where}: the column {name} stands there twice; remove one")
         names.append(name)
         factors.append(_factor(name, unit, where) if bracket else 1.0)
     return names, factors
+
+
+def _in_brackets(cell: str) -> str:
+    """Return a heading with its unit in square brackets: x (mm) as x [mm]."""
+    if cell.endswith(")") and "[" not in cell:
+        name, _, unit = cell[:-1].partition("(")
+        return f"{name.strip()} [{unit}]"
+    return cell
+
+
+_SYMBOLS = {
+    "EI": "bending_stiffness",
+    "EA": "axial_stiffness",
+    "GJ": "torsional_stiffness",
+}
+
+
+def _column_name(written: str, columns: Sequence[str]) -> str:
+    """Return the column that a heading means: EI, Bending stiffness; as it is if none."""
+    words = "_".join(written.lower().split())
+    found = (name for name in (written, _SYMBOLS.get(written, ""), words) if name in columns)
+    return next(found, written)
 
 
 def _factor(name: str, unit: str, where: str) -> float:
@@ -350,11 +386,12 @@ def _numbers(row: Row, names: list[str], path: Path) -> list[float]:
     values = []
     for name, cell in zip(names, row.cells, strict=True):
         try:
-            values.append(float(cell))
-        except ValueError:
+            values.append(number(cell))
+        except ValueError as error:
+            why = f"{error}" if "may be" in str(error) else "give a number"
             raise InputError(
-                f"{where}, column {name}: received {short(cell)}; give a number (its unit stands "
-                "in the header)"
+                f"{where}, column {name}: received {short(cell)}; {why} (its unit stands in the "
+                "header)"
             ) from None
         if not math.isfinite(values[-1]):
             raise InputError(

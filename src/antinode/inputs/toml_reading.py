@@ -41,11 +41,37 @@ def parse_toml(text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise ValueError(one_line(str(error), 100)) from error
+        raise ValueError(one_line(f"{error}{_hint(text, str(error))}", 300)) from error
     except RecursionError:
         raise ValueError(_DEEP) from None
     except ValueError as error:
         raise ValueError("one of its numbers has thousands of digits") from error
+
+
+_TYPED = (
+    (re.compile("[\u201c\u201d\u201e\u2018\u2019]"), "use straight quotes, not typographic ones"),
+    (
+        re.compile(r'"[^"]*\\'),
+        "a text with a backslash stands in single quotes, 'C:\\folder', or is written with /",
+    ),
+    (re.compile(r"=\s*[+-]?\d+,\d"), "a number has a point, 2.5, or stands in quotes, '2,5'"),
+    (
+        re.compile(r"=\s*[+-]?[\d.]+\s*[^\W\d_%]"),
+        "a number with a unit stands in quotes, '80 m/s'",
+    ),
+    (re.compile(r"^[^=:]*:"), "a value follows '=', not ':'"),
+    (re.compile(r"=\s*[A-Za-z]"), "a text stands in quotes"),
+)
+"""What people write that is no TOML, and what to write in its place."""
+
+
+def _hint(text: str, error: str) -> str:
+    """Return what to write in place of the line that an error names."""
+    found = re.search(r"at line (\d+)", error)
+    lines = text.splitlines()
+    number = int(found[1]) if found else len(lines)
+    line = lines[number - 1] if 0 < number <= len(lines) else ""
+    return next((f": {say}" for typed, say in _TYPED if typed.search(line)), "")
 
 
 _DEEP = f"its values are nested too deeply, at most {DEEPEST} levels are allowed"

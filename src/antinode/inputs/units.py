@@ -21,6 +21,7 @@ from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaH
 from pydantic_core import PydanticCustomError, PydanticKnownError, core_schema
 
 from .known_units import FACTORS
+from .written import split_number, tidy_unit
 
 if TYPE_CHECKING:
     import pint
@@ -77,23 +78,13 @@ def _parse(text: str, unit: str) -> float:
         pass
     if len(text) > _LONGEST:
         raise ValueError(f"it needs a number with a unit, at most {_LONGEST} characters long")
-    number, _, suffix = text.strip().partition(" ")
     try:
-        magnitude = float(number)
-    except ValueError:
-        magnitude, suffix = _split_number(text, unit)
-    return magnitude * unit_factor(suffix.strip(), unit)
-
-
-def _split_number(text: str, unit: str) -> tuple[float, str]:
-    """Split ``"80mm"`` into ``(80.0, "mm")``."""
-    text = text.strip()
-    for end in range(len(text), 0, -1):
-        try:
-            return float(text[:end]), text[end:].strip()
-        except ValueError:
-            continue
-    raise ValueError(f"it needs a number{_with_unit(unit)}")
+        magnitude, suffix = split_number(text)
+    except ValueError as error:
+        if "may be" in str(error):
+            raise
+        raise ValueError(f"it needs a number{_with_unit(unit)}") from None
+    return magnitude * unit_factor(suffix, unit) if suffix else magnitude
 
 
 @lru_cache(maxsize=1000)
@@ -106,12 +97,14 @@ def unit_factor(written: str, unit: str) -> float:
         If `written` is not a unit, has an offset (degC), or has another dimension than `unit`.
     """
     written = written.strip()
-    known = 1.0 if written == unit else FACTORS.get(unit, {}).get(written)
+    known = _known_factor(written, unit)
     if known is not None:
         return known
-    wrong = (
-        f"'{written}' is no unit of {unit}" if unit else "it needs a pure number, without a unit"
-    )
+    given, written = written, tidy_unit(written)
+    known = _known_factor(written, unit)
+    if known is not None:
+        return known
+    wrong = f"'{given}' is no unit of {unit}" if unit else "it needs a pure number, without a unit"
     if _POWER_OF_POWER.search(written) or _TWO_DIGITS.search(written):
         raise ValueError(wrong)
     registry = _registry()
@@ -126,6 +119,10 @@ def unit_factor(written: str, unit: str) -> float:
     if zero != 0 or not math.isfinite(factor) or factor <= 0:  # degC, dB
         raise ValueError(wrong)
     return factor
+
+
+def _known_factor(written: str, unit: str) -> float | None:
+    return 1.0 if written == unit else FACTORS.get(unit, {}).get(written)
 
 
 _TWO_DIGITS = re.compile(r"\d\d")

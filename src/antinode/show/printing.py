@@ -85,13 +85,13 @@ _HEADINGS = {
     "by shear, rot. inertia": "by shear",
 }
 """Headings of the table of modes, and what they shrink to on a narrow terminal."""
+_KEPT = ((0, 1, 2, 3, 4, 5), (0, 2, 3, 4, 5), (0, 2, 3, 5), (0, 2, 5))
+"""Columns that a narrow terminal keeps: what shear does is often the largest error of all."""
 
 
 def modes_table(result: ModalResult, out: Console) -> Table:
     """Return the table of modes that fits the console: in short words, or with fewer columns."""
-    headings = tuple(_HEADINGS)
-    brief = tuple(_HEADINGS.values())
-    choices = ((headings, False), (headings, True), *((brief[:n], True) for n in (6, 5, 4, 3)))
+    choices = ((_KEPT[0], False), *((kept, True) for kept in _KEPT))
     return _fitting((_modes_table(result, *choice) for choice in choices), out)
 
 
@@ -104,8 +104,9 @@ def _fitting(tables: Iterable[Table], out: Console) -> Table:
     return table
 
 
-def _modes_table(result: ModalResult, headings: Sequence[str], brief: bool) -> Table:
-    table = new_table(*headings, left=(0, 1))
+def _modes_table(result: ModalResult, kept: Sequence[int], brief: bool) -> Table:
+    headings = tuple(_HEADINGS.values() if brief else _HEADINGS)
+    table = new_table(*(headings[k] for k in kept), left=(0, 1) if 1 in kept else (0,))
     family = ""
     for mode in result.modes:
         if family and mode.family != family:
@@ -114,7 +115,9 @@ def _modes_table(result: ModalResult, headings: Sequence[str], brief: bool) -> T
         cells = _cells(mode, brief)
         if result.method == "tmm":
             cells = (*cells[:3], "", "", *cells[5:])
-        _row(table, *cells[: len(headings)])
+        if 1 not in kept and mode.kind == "divergent":
+            cells = (f"{cells[0]} (grows)", *cells[1:])
+        _row(table, *(cells[k] for k in kept))
     return table
 
 
@@ -123,7 +126,14 @@ def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
     if mode.omega2 < 0:
         growth = f"{mode.growth_rate_per_s:.5g} /s"
         error = f"{mode.error_growth_rate_per_s:.1e}"
-        return name, "divergent", growth if brief else f"grows at {growth}", error, "", ""
+        return (
+            name,
+            "divergent",
+            growth if brief else f"grows at {growth}",
+            error,
+            "",
+            "",
+        )
     exact = mode.omega2 == 0.0
     return (
         name,
@@ -206,8 +216,9 @@ def show_loads(out: Console, case: Case) -> None:
     """Print forces, accelerations, checks and validity ranges of a case."""
     show_condition(out, case)
     out.print(_forces_table(case))
-    out.print(_internal_table(case))
-    out.print(_fitting((_validity_table(case, columns) for columns in (5, 4)), out))
+    choices = ((_INTERNAL, 4), (_INTERNAL.values(), 4), (_INTERNAL.values(), 2))
+    out.print(_fitting((_internal_table(case, *choice) for choice in choices), out))
+    out.print(_fitting((_validity_table(case, brief) for brief in (False, True)), out))
     show_warnings(out, case.loads.warnings)
 
 
@@ -225,15 +236,23 @@ def _forces_table(case: Case) -> Table:
     return table
 
 
-_INTERNAL = ("x [m]", "N [kN]", "Q [kN]", "M [kN m]", "deflection [mm]", "axial [mm]")
+_INTERNAL = {
+    "x [m]": "x [m]",
+    "N [kN]": "N [kN]",
+    "Q [kN]": "Q [kN]",
+    "M [kN m]": "M [kN m]",
+    "deflection [mm]": "u_Y [mm]",
+    "axial [mm]": "u_X [mm]",
+}
+"""Headings of the table along the body, and what they shrink to on a narrow terminal."""
 
 
-def _internal_table(case: Case) -> Table:
+def _internal_table(case: Case, headings: Iterable[str], decimals: int) -> Table:
     from antinode.vehicle.statics import static_shape
 
     loads, x = case.loads, np.linspace(0, case.vehicle.length, 9)
     shape = static_shape(case)
-    table = new_table(*_INTERNAL, left=())
+    table = new_table(*headings, left=())
     rows = zip(
         x,
         loads.axial_force(x) / 1e3,
@@ -244,19 +263,26 @@ def _internal_table(case: Case) -> Table:
         strict=True,
     )
     for position, *forces in rows:
-        _row(table, f"{position:.3f}", *(f"{round(force, 4) + 0.0:.4f}" for force in forces))
+        texts = (f"{round(force, decimals) + 0.0:.{decimals}f}" for force in forces)
+        _row(table, f"{position:.3f}", *texts)
     return table
 
 
-def _validity_table(case: Case, columns: int) -> Table:
-    words = ("correlation", "quantity", "value", "valid range", "")[:columns]
+def _validity_table(case: Case, brief: bool) -> Table:
+    """Return the ranges; a narrow terminal has all but the verdict in one column."""
+    words = ("correlation", "quantity", "value", "valid range", "")
+    if brief:
+        words = ("correlation: quantity; valid range", "")
     table = new_table(*words, left=range(len(words)))
     for row in case.loads.validity:
         high = "" if math.isinf(row.high) else f" ... {row.high:g}"
         low = f"from {row.low:g}" if math.isinf(row.high) else f"{row.low:g}"
         mark = "inside" if row.inside else "OUTSIDE"
-        cells = (row.correlation, row.quantity, f"{row.value:.4g}", low + high, mark)
-        _row(table, *cells[:columns])
+        if brief:
+            found = f"{row.correlation}: {row.quantity} = {row.value:.4g}; {low}{high}"
+            _row(table, found, mark)
+        else:
+            _row(table, row.correlation, row.quantity, f"{row.value:.4g}", low + high, mark)
     return table
 
 

@@ -14,12 +14,13 @@ from antinode.modes.result import Mode
 
 
 class Row(NamedTuple):
-    """A mode of the table: name, omega^2, its error, shift by the axial force."""
+    """A mode of the table: name, omega^2, its error, shift by the axial force, effect of shear."""
 
     name: str
     omega2: float
     error_omega2: float
     shift: float
+    model_error: float | None = None
 
 
 def frequencies_data(answer: Answer, view: View) -> dict[str, Any]:
@@ -54,7 +55,7 @@ def frequency_rows(answer: Answer, family: FamilyName) -> list[Row]:
 
 
 def _row(mode: Mode) -> Row:
-    return Row(mode.name, mode.omega2, mode.error_omega2, mode.shift)
+    return Row(mode.name, mode.omega2, mode.error_omega2, mode.shift, mode.model_error)
 
 
 def _shown(row: Row, baseline: float | None, view: View) -> dict[str, Any]:
@@ -68,6 +69,7 @@ def _shown(row: Row, baseline: float | None, view: View) -> dict[str, Any]:
         "text": "divergent" if divergent else f"{frequency:.6g}",
         "error": "" if divergent else f"{error:.0e}",
         "shift": "" if math.isnan(row.shift) else f"{row.shift:+.1%}",
+        "shear": "" if divergent or row.model_error is None else f"{row.model_error:+.1%}",
         "baseline": baseline,
         "change": ""
         if divergent or not baseline

@@ -8,6 +8,7 @@ const HEADS = [
   ["bar", ""],
   ["change", "vs pinned"],
   ["shift", "by N"],
+  ["shear", "by shear"],
 ];
 
 export function frequencies(element) {
@@ -21,7 +22,8 @@ export function frequencies(element) {
     row.append(cell);
   }
   row.querySelector(".an-shift").title = "change by the axial force";
-  row.querySelector(".an-error").title = "bound on the error [Hz]";
+  row.querySelector(".an-error").title = "bound on the error [Hz], shear and rotary inertia left out";
+  row.querySelector(".an-shear").title = "shear and rotary inertia, left out: their effect to first order";
   head.append(row);
   const rows = html("tbody");
   table.append(caption, head, rows);
@@ -68,6 +70,7 @@ export function frequencies(element) {
     const cells = [html("td", "an-hz", r.text), html("td", "an-error", r.error), html("td", "an-bar")];
     cells[2].append(bar(data, r));
     tr.append(name, ...cells, html("td", "an-change", r.change), html("td", "an-shift", r.shift));
+    tr.append(html("td", "an-shear", r.shear));
     return tr;
   }
 
