@@ -1,7 +1,8 @@
 """A NASTRAN deck as pyNastran reads it, solved by plane beam elements: statics, then modes.
 
-Three freedoms a grid: along x, along y, about z. Consistent masses; the axial force that stiffens
-the elements comes from the displacements of the static subcase alone. Nothing of antinode is used.
+Three freedoms a grid: along x, along y, about z. Half of the mass at either grid; the axial force
+that stiffens the elements comes from the displacements of the static subcase alone. Nothing of
+antinode is used.
 """
 
 import numpy as np
@@ -63,7 +64,11 @@ class Deck:
     def _free(self, spc):
         """The map from free freedoms to all of them: supports out, links followed."""
         size = len(self.K)
-        held = set()
+        held = {
+            self.index[number] + DOF[c]
+            for number, node in self.model.nodes.items()
+            for c in set(str(node.ps)) & set(DOF)
+        }
         for card in self.model.spcs.get(spc, []):
             for node in card.nodes:
                 held |= {self.index[node] + DOF[c] for c in card.components}
@@ -88,16 +93,15 @@ class Deck:
         E = self.model.materials[prop.mid].e
         k = E * prop.A / h
         self.K[np.ix_(axial, axial)] += k * np.array([[1, -1], [-1, 1]])
-        self.M[np.ix_(axial, axial)] += prop.nsm * h / 6 * np.array([[2, 1], [1, 2]])
-        K, M, _ = hermite(h)
-        self.K[np.ix_(bending, bending)] += E * prop.i1 * K
-        self.M[np.ix_(bending, bending)] += prop.nsm * M
+        self.K[np.ix_(bending, bending)] += E * prop.i1 * hermite(h)[0]
+        for i in (*axial, bending[0], bending[2]):
+            self.M[i, i] += prop.nsm * h / 2
 
     def _stiffen(self, K, element, u):
         h, axial, bending = self._geometry(element)
         prop = self.model.properties[element.pid]
         tension = self.model.materials[prop.mid].e * prop.A / h * (u[axial[1]] - u[axial[0]])
-        K[np.ix_(bending, bending)] += tension * hermite(h)[2]
+        K[np.ix_(bending, bending)] += tension * hermite(h)[1]
 
     def _spring(self, element):
         ends = [(g, c) for g, c in zip(element.nodes, (element.c1, element.c2), strict=True) if g]
@@ -121,16 +125,13 @@ def _lowest(T, K, M):
 
 
 def hermite(h):
-    """Stiffness, mass and geometric stiffness for EI = m = tension = 1."""
-    K, M, G = np.zeros((4, 4)), np.zeros((4, 4)), np.zeros((4, 4))
+    """Stiffness and geometric stiffness for EI = tension = 1."""
+    K, G = np.zeros((4, 4)), np.zeros((4, 4))
     for p, w in zip(_POINTS, _WEIGHTS, strict=True):
         s = (p + 1) / 2
-        f = np.array([1 - 3 * s**2 + 2 * s**3, h * (s - 2 * s**2 + s**3),
-                      3 * s**2 - 2 * s**3, h * (s**3 - s**2)])  # fmt: skip
         g = np.array([-6 * s + 6 * s**2, h * (1 - 4 * s + 3 * s**2),
                       6 * s - 6 * s**2, h * (3 * s**2 - 2 * s)]) / h  # fmt: skip
         c = np.array([-6 + 12 * s, h * (-4 + 6 * s), 6 - 12 * s, h * (6 * s - 2)]) / h**2
         K += w * h / 2 * np.outer(c, c)
-        M += w * h / 2 * np.outer(f, f)
         G += w * h / 2 * np.outer(g, g)
-    return K, M, G
+    return K, G

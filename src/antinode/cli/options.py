@@ -168,12 +168,21 @@ class Exchange:
             "Elastic modes of each family in an output with modes; default: the file's, or 6.",
         ),
     ] = None
+    analysis: Annotated[
+        Literal["modes", "unloaded", "statsub", "buckling"],
+        option(
+            OUTPUT,
+            "What a NASTRAN or CalculiX deck is for: modes under the axial force, as every solver "
+            "reads it; modes without it; statsub, modes under it by a static subcase of NASTRAN; "
+            "buckling.",
+        ),
+    ] = "modes"
     units: Annotated[
         Literal["SI", "mm-t-s", "mm-kg-ms", "in-lbf-s", "ft-lbf-s"],
         option(
             INPUT,
-            "Units of NASTRAN and UFF files that do not say them: SI; mm-t-s (N, MPa); mm-kg-ms "
-            "(kN, GPa); in-lbf-s (mass in lbf s^2/inch); ft-lbf-s (slug).",
+            "Units of NASTRAN, CalculiX and UFF files, which do not say them: SI; mm-t-s (N, MPa); "
+            "mm-kg-ms (kN, GPa); in-lbf-s (mass in lbf s^2/inch); ft-lbf-s (slug).",
         ),
     ] = "SI"
     elements: Annotated[

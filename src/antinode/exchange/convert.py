@@ -13,6 +13,7 @@ from antinode.text import nearest, one_line
 
 from .formats import INPUTS, OUTPUTS, Format, format_of
 from .inputs import Choices, Found, read_beam
+from .mesh.analyses import Analysis
 from .outputs import Modes, check_libraries, write_beam, write_modes
 
 _BEAMS = ("toml", "csv", "xlsx")
@@ -32,6 +33,8 @@ class Request:
     choices : Choices
     modes : int or None
         To solve for; by default the file's.
+    analysis : {"modes", "unloaded", "statsub", "buckling"}
+        What a solver is to do with a deck.
     """
 
     source: Path
@@ -40,6 +43,7 @@ class Request:
     to_format: str = ""
     choices: Choices = field(default_factory=Choices)
     modes: int | None = None
+    analysis: Analysis = "modes"
 
 
 def convert(request: Request) -> tuple[str, ...]:
@@ -66,7 +70,7 @@ def convert(request: Request) -> tuple[str, ...]:
         return (*notes, *write_beam(request.target, found.beam, how_out, found.hull))
     modes = _solved(found, request.modes)
     system = request.choices.system
-    return (*notes, *write_modes(request.target, modes, how_out, system))
+    return (*notes, *write_modes(request.target, modes, how_out, system, request.analysis))
 
 
 def _left_out(found: Found, how_out: Format) -> tuple[str, ...]:

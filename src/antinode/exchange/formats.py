@@ -10,7 +10,17 @@ from antinode.errors import InputError
 from antinode.text import short
 
 Format = Literal[
-    "toml", "csv", "xlsx", "json", "netcdf", "mat", "nastran", "uff", "vtk", "sections"
+    "toml",
+    "csv",
+    "xlsx",
+    "json",
+    "netcdf",
+    "mat",
+    "nastran",
+    "calculix",
+    "uff",
+    "vtk",
+    "sections",
 ]
 
 INPUTS: dict[str, Format] = {
@@ -35,6 +45,7 @@ OUTPUTS: dict[str, Format] = {
     ".mat": "mat",
     ".bdf": "nastran",
     ".nas": "nastran",
+    ".inp": "calculix",
     ".uff": "uff",
     ".unv": "uff",
     ".vtu": "vtk",

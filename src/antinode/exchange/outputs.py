@@ -14,6 +14,7 @@ from antinode.show.tables import modal_table
 from antinode.show.writing import check_output, write_result, write_whole
 
 from .formats import MODAL_ENDINGS, MODAL_FORMATS, Format, format_of
+from .mesh.analyses import Analysis
 from .tabulated import Hull
 from .units import SI, System
 
@@ -34,7 +35,13 @@ def check_modal_output(path: Path) -> None:
     check_libraries(MODAL_FORMATS[path.suffix.lower()])
 
 
-def write_modes(path: Path, modes: Modes, how: Format | None = None, system: System = SI) -> Notes:
+def write_modes(
+    path: Path,
+    modes: Modes,
+    how: Format | None = None,
+    system: System = SI,
+    analysis: Analysis = "modes",
+) -> Notes:
     """Write modes in the format of the ending, or in another one.
 
     Parameters
@@ -45,6 +52,8 @@ def write_modes(path: Path, modes: Modes, how: Format | None = None, system: Sys
         Name of the format.
     system : System
         Units of a file that does not say them itself.
+    analysis : {"modes", "unloaded", "statsub", "buckling"}
+        What a solver is to do with a deck.
 
     Returns
     -------
@@ -62,7 +71,8 @@ def write_modes(path: Path, modes: Modes, how: Format | None = None, system: Sys
         "mat": lambda p: _mat(p, result),
         "vtk": lambda p: _vtk(p, result),
         "uff": lambda p: _uff(p, result),
-        "nastran": lambda p: _nastran(p, result, system),
+        "nastran": lambda p: _nastran(p, result, system, analysis),
+        "calculix": lambda p: _calculix(p, result, system, analysis),
     }
     return _whole(path, writers[how])
 
@@ -136,7 +146,13 @@ def _uff(path: Path, result: ModalResult) -> Notes:
     return write_uff(path, result)
 
 
-def _nastran(path: Path, result: ModalResult, system: System) -> Notes:
+def _nastran(path: Path, result: ModalResult, system: System, analysis: Analysis) -> Notes:
     from .nastran.writer import write_nastran
 
-    return write_nastran(path, result, system)
+    return write_nastran(path, result, system, analysis)
+
+
+def _calculix(path: Path, result: ModalResult, system: System, analysis: Analysis) -> Notes:
+    from .calculix import write_calculix
+
+    return write_calculix(path, result, system, analysis)

@@ -24,8 +24,9 @@ def convert(
 
     The endings say which. Read are .toml, .csv, .xlsx, NASTRAN's .bdf and .nas, tables of sections
     of BModes and ElastoDyn in .dat, and measurements in .uff and .unv. Written are the beam as
-    .toml, .csv or .xlsx, its modes as .json, .nc, .mat, .bdf, .uff or .vtu, and measurements as
-    observations for **antinode identify** in .toml, .csv or .json.
+    .toml, .csv or .xlsx, its modes as .json, .nc, .mat, .uff or .vtu, decks for solvers as .bdf
+    (NASTRAN) and .inp (CalculiX), and measurements as observations for **antinode identify** in
+    .toml, .csv or .json.
 
     - Example: **antinode convert beam.toml beam.bdf --units mm-t-s**
     - Example: **antinode convert tower.dat tower.toml --length 87.6m --set beam.ends.left=clamped**
@@ -41,5 +42,6 @@ def convert(
     from antinode.exchange.convert import Request
     from antinode.exchange.convert import convert as run
 
-    say_notes(run(Request(source, target, from_, to, exchange.choices(set_), exchange.modes)))
+    choices, modes = exchange.choices(set_), exchange.modes
+    say_notes(run(Request(source, target, from_, to, choices, modes, exchange.analysis)))
     say_written(target)

@@ -8,6 +8,7 @@ motion, so it holds sideways alone, or all.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -184,11 +185,45 @@ def is_joint(line: Line, spring: Elastic) -> bool:
     return len(spring.ends) == 2 and any(grid in line.right_grids for grid, _ in spring.ends)
 
 
+def string_of(line: Line, spring: Elastic) -> int | None:
+    """Return the element across which a spring acts as a taut string does, if it is one.
+
+    It joins the lateral freedoms of the element's grids: `k = -N/h`.
+    """
+    grids = {grid for grid, _ in spring.ends}
+    if len(grids) != 2 or not grids <= set(line.node):
+        return None
+    k = min(line.node[grid] for grid in grids)
+    if k == len(line.elements) or grids != {line.elements[k].left, line.elements[k].right}:
+        return None
+    lateral = {(grid, line.freedoms(grid, spring.card)[1]) for grid in grids}
+    return k if lateral == set(spring.ends) else None
+
+
+def axial_force_of_strings(model: Model, line: Line) -> Array:
+    """Return N of the elements that springs across them amount to."""
+    N = np.zeros(len(line.elements))
+    for spring in model.springs:
+        if (k := string_of(line, spring)) is not None:
+            N[k] -= spring.k * (line.x[k + 1] - line.x[k])
+    return N
+
+
+def _to_ground(model: Model, line: Line, spring: Elastic) -> Elastic:
+    """Return a spring without those of its ends that are held and bear no element: the ground."""
+    free = [
+        (grid, freedom)
+        for grid, freedom in spring.ends
+        if grid in line.node or set(model.grid(grid, spring.card).held) < set("123456")
+    ]
+    return replace(spring, ends=tuple(free)) if free else spring
+
+
 def springs_of(model: Model, line: Line) -> list[Spring]:
     """Return the springs to the ground."""
     found = []
-    for spring in model.springs:
-        if is_joint(line, spring):
+    for spring in (_to_ground(model, line, own) for own in model.springs):
+        if is_joint(line, spring) or string_of(line, spring) is not None:
             continue
         if model.wanted and not all(grid in line.node for grid, _ in spring.ends):
             model.passed[spring.card.name] += 1

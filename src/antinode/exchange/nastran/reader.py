@@ -6,18 +6,20 @@ this plane and along the axis.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from antinode.arrays import Array
 from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
 from antinode.beam.beam import Beam
 from antinode.exchange.units import SI, System
 from antinode.text import counted
 
-from .attached import attachments_of, ends_of, inner_supports
+from .attached import attachments_of, axial_force_of_strings, ends_of, inner_supports
 from .deck import Subcase, read_deck
-from .line import line_of
+from .line import Line, line_of
 from .model import Model, passed_notes, read_model
 from .preload import preloaded, subcases_of
 from .properties import notes_of, tables_of
@@ -72,8 +74,18 @@ def read_nastran(
     beam = beam.with_attachments(*items)
     if static:
         beam = preloaded(beam, model, line, static, system)
+    strings = axial_force_of_strings(model, line)
+    if np.any(strings):
+        beam = _under(beam, line, strings, system)
     notes = (*_notes(model, modal, static, system), *notes_of(model, line), *passed_notes(model))
     return beam, notes
+
+
+def _under(beam: Beam, line: Line, strings: Array, system: System) -> Beam:
+    """Return the beam under N of its elements as well [file's force]."""
+    middles = (beam.x[1:] + beam.x[:-1]) / 2 * system.length
+    N = strings[np.searchsorted(line.x, middles) - 1] / system.force
+    return replace(beam, axial_force=beam.axial_force + N[:, None])
 
 
 def _unit(name: str, system: System) -> float:

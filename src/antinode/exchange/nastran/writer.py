@@ -1,28 +1,31 @@
-"""A beam as a NASTRAN deck: CBAR elements, its masses, springs and joints, and N as a preload.
+"""A beam as a NASTRAN deck: CBAR elements, its masses, springs and joints, and N.
 
-The beam lies along x and bends in the plane x-y. Mass per length stands as NSM, so `A = EA/E`,
-`I1 = EI/E`. Subcase 1 loads the beam by axial forces, the steps of N from element to element; it is
-held at its left end alone, whatever the ends, so that N(x) follows from them. Subcase 2 are modes
-without N, subcase 3 with it (STATSUB). An axial spring at x stretches in subcase 1; the force there
-is `F + k u`, with `u' = -N/EA`.
+The beam lies along x and bends in the plane x-y. Mass per length stands as NSM, half of it at
+either grid (COUPMASS -1): `A = EA/E`, `I1 = EI/E`. A deck for modes has one subcase. N stands in it
+as a CELAS2 of `-N/h` across each element, between the freedoms 2 of its grids: what a taut string
+adds, read by every solver. For STATSUB and buckling axial forces load a subcase of their own, the
+steps of N from element to element; for buckling the beam is held along x at its left end alone.
+Springs to the ground end at a grid that is held, since some solvers know no other ground.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from antinode.arrays import Array
-from antinode.beam.attachments import Joint, PointMass, Spring
-from antinode.beam.beam import Beam
-from antinode.beam.families import FAMILIES, LONGITUDINAL
+from antinode.exchange.mesh.analyses import Analysis
+from antinode.exchange.mesh.elements import Kind
+from antinode.exchange.mesh.expected import (
+    Expected,
+    comparable,
+    expected_buckling,
+    expected_modes,
+    header,
+)
+from antinode.exchange.mesh.mesh import AXIAL, LATERAL, TURN, Mesh, mesh_of
 from antinode.exchange.units import SI, System
-from antinode.modes.hertz import hertz
 from antinode.modes.result import ModalResult
 from antinode.version import __version__
 
@@ -32,266 +35,185 @@ ELEMENTS = 200
 """Fewest elements of a beam."""
 MODULUS = 2.1e11
 """E of MAT1 [Pa]; A and I follow from it."""
-SLENDER = 1e-3
-"""Radius of gyration in lengths of a beam without EA."""
-_GAUSS = 0.5 - math.sqrt(3) / 6, 0.5 + math.sqrt(3) / 6
 _STATIC, _MODAL, _LOAD, _METHOD, _MATERIAL = 1, 2, 1, 10, 1
+_RIGHT, _GROUND, _STRING = 1_000_000, 2_000_000, 3_000_000
+_KINDS: dict[Analysis, Kind] = {
+    "modes": "bars by strings", "unloaded": "bars", "statsub": "bars", "buckling": "bars",
+}  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Elements:
-    """Uniform elements from left to right, SI.
-
-    Attributes
-    ----------
-    x : array, shape (n + 1,)
-    mass, EI, EA, N : array, shape (n,)
-    """
-
-    x: Array
-    mass: Array
-    EI: Array
-    EA: Array
-    N: Array
-
-
-def write_nastran(path: Path, result: ModalResult, system: System = SI) -> tuple[str, ...]:
-    """Write the beam of a result, with the frequencies to expect.
+def write_nastran(
+    path: Path, result: ModalResult, system: System = SI, analysis: Analysis = "modes"
+) -> tuple[str, ...]:
+    """Write the beam of a result, with what to expect.
 
     Parameters
     ----------
     path : Path
     result : ModalResult
-        Solved with ``unloaded=True``.
     system : System
+    analysis : {"modes", "unloaded", "statsub", "buckling"}
 
     Returns
     -------
     tuple of str
         What the deck does not hold exactly.
     """
-    result, notes = _comparable(result)
-    path.write_text(nastran_text(result, system, notes), encoding="ascii", errors="replace")
+    result, notes = comparable(result, analysis)
+    text = nastran_text(result, system, notes, analysis)
+    path.write_text(text, encoding="ascii", errors="replace")
     return (f"NASTRAN has no units: these are {system.words}", *notes)
 
 
-def nastran_text(result: ModalResult, system: System = SI, notes: tuple[str, ...] = ()) -> str:
+def nastran_text(
+    result: ModalResult,
+    system: System = SI,
+    notes: tuple[str, ...] = (),
+    analysis: Analysis = "modes",
+) -> str:
     """Return the deck as text."""
     beam = result.beam
-    count = max(ELEMENTS, 20 * max((mode.number for mode in result.modes), default=1))
-    elements = elements_of(beam, count)
-    loaded = not beam.is_unloaded
-    head = [*_comments(result, system, elements, notes), *_case_control(beam, loaded=loaded)]
+    mesh = mesh_of(beam, max(ELEMENTS, 20 * max((mode.number for mode in result.modes), default=1)))
+    kind = _KINDS[analysis]
+    if analysis == "buckling":
+        expected = expected_buckling(beam, mesh, kind)
+    else:
+        expected = expected_modes(result, mesh, kind)
+    head = [*_comments(mesh, system, notes, expected), *_case_control(mesh, analysis)]
     bulk = [
-        card_text("PARAM", "COUPMASS", 1),
+        card_text("PARAM", "COUPMASS", -1),
         card_text("PARAM", "GRDPNT", 0),
-        card_text("EIGRL", _METHOD, None, None, len(result.modes)),
+        card_text("EIGRL", _METHOD, None, None, expected.asked, None, None, expected.near),
         card_text("MAT1", _MATERIAL, MODULUS * system.force / system.length**2, None, 0.3),
-        *_line(beam, elements, system),
-        *_attachments(beam, elements, system),
-        *_supports(beam, elements),
-        *(_preload(beam, elements, system) if loaded else ()),
+        *_line(mesh, system),
+        *_attachments(mesh, system, axial=analysis != "buckling"),
+        *_supports(mesh, analysis),
+        *_axial_force(mesh, system, analysis),
     ]
     return "".join([*(f"{line}\n" for line in head), "BEGIN BULK\n", *bulk, "ENDDATA\n"])
 
 
-def _comparable(result: ModalResult) -> tuple[ModalResult, tuple[str, ...]]:
-    """Return modes that the deck can give: NASTRAN lets weight act at its grid."""
-    from antinode.modes.solve import solve_one
-
-    beam = result.beam
-    in_plane = [name for name in result.families if set(FAMILIES[name].freedoms) <= {0, 1, 5}]
-    kept = tuple(mode for mode in result.modes if mode.family in in_plane)
-    offset = any(isinstance(item, PointMass) and item.offset for item in beam.attachments)
-    notes: tuple[str, ...] = ()
-    if beam.axial_stiffness is None:
-        notes = (f"EA is not known: EI/(L/{1 / SLENDER:.0f})^2 stands for it",)
-    if len(kept) < len(result.modes):
-        notes = (*notes, "torsion is left out: the grids of this deck do not turn about x")
-    if not (offset and beam.offset_weight and beam.axial_acceleration):
-        return replace(result, modes=kept), notes
-    beam = replace(beam, offset_weight=False)
-    number = max(mode.number for mode in result.modes)
-    say = "the weight of offset masses acts at their grids, in the frequencies expected here too"
-    options: dict[str, Any] = {"tolerance": result.tolerance, "families": in_plane}
-    return solve_one(beam, number, unloaded=True, **options), (*notes, say)
-
-
-def elements_of(beam: Beam, count: int) -> Elements:
-    """Return a beam as uniform elements, at least so many, with breakpoints at their ends."""
-    pieces = np.ceil(np.diff(beam.x) / beam.length * count - 1e-9).astype(int).clip(1)
-    k = np.repeat(np.arange(len(pieces)), pieces)
-    within = np.concatenate([np.arange(n) for n in pieces])
-    size = 1 / pieces[k]
-    x = np.append(beam.x[k] + np.diff(beam.x)[k] * within * size, beam.x[-1])
-
-    def mean(values: Array, power: int = 1) -> Array:
-        sides = [beam.at(values, k, (within + g) * size) ** power for g in _GAUSS]
-        return np.asarray(np.mean(sides, axis=0) ** power)
-
-    EI, EA = mean(beam.bending_stiffness, -1), beam.axial_stiffness
-    return Elements(
-        x,
-        mean(beam.mass_per_length),
-        EI,
-        EI / (SLENDER * beam.length) ** 2 if EA is None else mean(EA, -1),
-        np.mean([beam.axial_force_at(k, (within + g) * size) for g in _GAUSS], axis=0),
-    )
-
-
 def _comments(
-    result: ModalResult, system: System, elements: Elements, notes: tuple[str, ...]
+    mesh: Mesh, system: System, notes: tuple[str, ...], expected: Expected
 ) -> Iterator[str]:
-    name = "".join(c if c.isprintable() else " " for c in result.beam.name)[:60]
-    yield f"$ {name}: a beam by antinode {__version__}"
-    yield f"$ Units: {system.words}. NASTRAN itself has none."
-    yield f"$ {len(elements.N)} CBAR without shear, along x, bending in the plane x-y"
-    yield from (f"$ Note: {note}" for note in notes)
-    yield "$ Frequencies to expect [Hz]; these are of the beam itself, not of its elements:"
-    yield f"$ {'mode':<24}{'subcase 3, with N':>20}{'subcase 2, without':>20}"
-    for mode in result.modes:
-        with_N = f"{mode.frequency_hz:.6f}"
-        if mode.omega2 < 0:
-            with_N = f"omega2 {mode.omega2:.5g}"
-        bare = "-" if mode.unloaded_omega2 is None else f"{hertz(mode.unloaded_omega2):.6f}"
-        yield f"$ {mode.name:<24}{with_N:>20}{bare:>20}"
+    title = "".join(c if c.isprintable() else " " for c in mesh.beam.name)[:60]
+    own = (
+        f"Units: {system.words}. NASTRAN itself has none.",
+        f"Mesh: {mesh.count} CBAR without shear, along x, bending in the plane x-y, lumped mass",
+    )
+    lines = [*header(title, notes, expected, __version__)]
+    yield from (f"$ {line}" for line in (lines[0], *own, *lines[1:]))
 
 
-def _case_control(beam: Beam, *, loaded: bool) -> Iterator[str]:
-    held = [f"  SPC = {_MODAL}"] if _held_freedoms(beam) else []
-    yield from ("SOL 103", "CEND", "TITLE = BEAM BY ANTINODE", "ECHO = NONE", "DISPLACEMENT = ALL")
-    if loaded:
-        yield from ("SUBCASE 1", "  LABEL = AXIAL FORCE", f"  SPC = {_STATIC}", f"  LOAD = {_LOAD}")
-    yield from ("SUBCASE 2", "  LABEL = MODES WITHOUT AXIAL FORCE", *held, f"  METHOD = {_METHOD}")
-    if loaded:
-        yield from ("SUBCASE 3", "  LABEL = MODES UNDER AXIAL FORCE", *held)
-        yield from (f"  METHOD = {_METHOD}", "  STATSUB(PRELOAD) = 1")
+def _case_control(mesh: Mesh, analysis: Analysis) -> Iterator[str]:
+    is_held = mesh.held_under(buckling=analysis == "buckling")
+    held = [f"  SPC = {_MODAL}"] if is_held else []
+    method = f"  METHOD = {_METHOD}"
+    yield "SOL 105" if analysis == "buckling" else "SOL 103"
+    yield from ("CEND", "TITLE = BEAM BY ANTINODE", "ECHO = NONE", "DISPLACEMENT = ALL")
+    if analysis in ("modes", "unloaded"):
+        yield from ("SUBCASE 1", "  LABEL = MODES", *held, method)
+        return
+    static = [f"  SPC = {_STATIC}"] if analysis == "statsub" else held
+    yield from ("SUBCASE 1", "  LABEL = AXIAL FORCE", *static, f"  LOAD = {_LOAD}")
+    if analysis == "statsub":
+        yield from ("SUBCASE 2", "  LABEL = MODES UNDER AXIAL FORCE", *held, method)
+        yield "  STATSUB(PRELOAD) = 1"
+    else:
+        yield from ("SUBCASE 2", "  LABEL = BUCKLING", *held, method)
 
 
-def _line(beam: Beam, elements: Elements, system: System) -> Iterator[str]:
+def _line(mesh: Mesh, system: System) -> Iterator[str]:
     """Yield grids, elements and their properties, each property once; a joint has two grids."""
-    joints = _joint_nodes(beam, elements)
-    places = [(k + 1, x) for k, x in enumerate(elements.x)]
-    places += [(_right_grid(k), elements.x[k]) for k in joints]
+    places = [(k + 1, x) for k, x in enumerate(mesh.x)]
+    places += [(_RIGHT + k + 1, mesh.x[k]) for k in mesh.joints]
     for number, x in places:
         yield card_text("GRID", number, None, float(x * system.length), 0.0, 0.0, None, "345")
     numbers: dict[tuple[float, ...], int] = {}
-    for k in range(len(elements.N)):
-        area = float(elements.EA[k] / MODULUS * system.length**2)
-        inertia = float(elements.EI[k] / MODULUS * system.length**4)
-        mass = float(elements.mass[k] * system.mass / system.length)
+    for k in range(mesh.count):
+        area = float(mesh.EA[k] / MODULUS * system.length**2)
+        inertia = float(mesh.EI[k] / MODULUS * system.length**4)
+        mass = float(mesh.mass[k] * system.mass / system.length)
         number = numbers.setdefault((area, inertia, mass), len(numbers) + 1)
-        left = _right_grid(k) if k in joints else k + 1
-        yield card_text("CBAR", k + 1, number, left, k + 2, 0.0, 1.0, 0.0)
+        yield card_text("CBAR", k + 1, number, *_grids(mesh, k), 0.0, 1.0, 0.0)
     for (area, inertia, mass), number in numbers.items():
         yield card_text("PBAR", number, _MATERIAL, area, inertia, inertia, 2 * inertia, mass)
 
 
-def _right_grid(node: int) -> int:
-    """Return the grid on the right side of a joint at a node."""
-    return 1_000_001 + node
+def _grids(mesh: Mesh, k: int) -> tuple[int, int]:
+    """Return the grids of an element; it begins on the right side of a joint."""
+    return (_RIGHT + k + 1 if k in mesh.joints else k + 1), k + 2
 
 
-def _joint_nodes(beam: Beam, elements: Elements) -> list[int]:
-    places = {_node(elements, item.x) for item in beam.attachments if isinstance(item, Joint)}
-    return sorted(places)
+def _attachments(mesh: Mesh, system: System, *, axial: bool) -> Iterator[str]:
+    """Yield masses, springs and joints; without axial springs where N is to pass them by."""
+    for row, (node, item) in enumerate(mesh.masses):
+        inertia = item.rotary_inertia * system.mass * system.length**2
+        cells = (item.mass * system.mass, item.offset * system.length, 0.0, 0.0)
+        own = (*map(float, cells), None, *_inertias(float(inertia)))
+        yield card_text("CONM2", _GROUND + row + 1, node + 1, None, *own)
+    springs = [spring for spring in mesh.springs if axial or spring[1] != AXIAL]
+    for node in sorted({node for node, _, _ in springs}):
+        x = float(mesh.x[node] * system.length)
+        yield card_text("GRID", _GROUND + node + 1, None, x, 0.0, 0.0, None, "123456")
+    for row, (node, freedom, k) in enumerate(springs):
+        stiffness = k * _stiffness_unit(freedom, system)
+        ends = (node + 1, freedom, _GROUND + node + 1, freedom)
+        yield card_text("CELAS2", _GROUND + row + 1, float(stiffness), *ends)
+    for node in mesh.joints:
+        yield from _joint(mesh, node, system)
 
 
-def _node(elements: Elements, x: float) -> int:
-    return int(np.argmin(np.abs(elements.x - x)))
+def _inertias(about_z: float) -> tuple[float | None, ...]:
+    """Return the six moments of inertia of a CONM2; none that is zero."""
+    return (None, None, None, None, None, about_z) if about_z else ()
 
 
-def _attachments(beam: Beam, elements: Elements, system: System) -> Iterator[str]:
-    """Yield masses, finite springs and joints."""
-    number = 2_000_000
-    for item in beam.attachments:
-        grid = _node(elements, item.x) + 1
-        number += 10
-        if isinstance(item, PointMass):
-            offset = item.offset * system.length
-            inertia = item.rotary_inertia * system.mass * system.length**2
-            mass = item.mass * system.mass
-            cells = (mass, float(offset), 0.0, 0.0, None, 0.0, None, 0.0, None, None, inertia)
-            yield card_text("CONM2", number, grid, None, *(_float(c) for c in cells))
-        elif isinstance(item, Spring):
-            for dof, k in _stiffness(item, system).items():
-                if 0 < k < math.inf:
-                    yield card_text("CELAS2", number + dof, k, grid, dof)
-    for node in _joint_nodes(beam, elements):
-        yield from _joint(beam, elements, node, system)
+def _stiffness_unit(freedom: int, system: System) -> float:
+    """Return how many units make up an SI unit of the stiffness in a freedom."""
+    return system.force * system.length if freedom == TURN else system.force / system.length
 
 
-def _float(value: float | None) -> float | None:
-    return None if value is None else float(value)
-
-
-def _stiffness(spring: Spring, system: System) -> dict[int, float]:
-    """Return the stiffness of a spring by degree of freedom."""
-    k = system.force / system.length
-    turning = system.force * system.length
-    return {1: spring.axial * k, 2: spring.translational * k, 6: spring.rotational * turning}
-
-
-def _joint(beam: Beam, elements: Elements, node: int, system: System) -> Iterator[str]:
+def _joint(mesh: Mesh, node: int, system: System) -> Iterator[str]:
     """Yield what links the two grids of a joint: springs where it gives way, else a rigid link."""
-    here = [
-        item
-        for item in beam.attachments
-        if isinstance(item, Joint) and _node(elements, item.x) == node
-    ]
-    axial = sum(item.axial for item in here) * system.length / system.force
-    turning = sum(item.rotational for item in here) / (system.force * system.length)
-    number, left, right = 4_000_000 + 10 * node, node + 1, _right_grid(node)
-    rigid = "2" if axial else "12"
-    yield card_text("RBE2", number, left, rigid if turning else rigid + "6", right)
-    for dof, compliance in ((1, axial), (6, turning)):
-        if compliance:
-            yield card_text("CELAS2", number + dof, 1 / compliance, left, dof, right, dof)
+    compliance, left, right = mesh.joints[node], node + 1, _RIGHT + node + 1
+    rigid = "".join(str(f) for f in (AXIAL, LATERAL, TURN) if not compliance.get(f))
+    number = 4_000_000 + 10 * node
+    yield card_text("RBE2", number, left, rigid, right)
+    for freedom, c in compliance.items():
+        if c:
+            stiffness = float(_stiffness_unit(freedom, system) / c)
+            yield card_text("CELAS2", number + freedom, stiffness, left, freedom, right, freedom)
 
 
-_END = {"free": "", "pinned": "2", "sliding": "6", "clamped": "26"}
+def _supports(mesh: Mesh, analysis: Analysis) -> Iterator[str]:
+    held = mesh.held_under(buckling=analysis == "buckling")
+    for node in sorted({node for node, _ in held}):
+        freedoms = "".join(str(f) for n, f in held if n == node)
+        yield card_text("SPC1", _MODAL, freedoms, node + 1)
+    if analysis == "statsub":
+        yield card_text("SPC1", _STATIC, "126", 1)
 
 
-def _held_freedoms(beam: Beam) -> list[tuple[float, str]]:
-    """Return what holds the modes: place and degrees of freedom, ends and supports."""
-    axial = ["1" if end == "fixed" else "" for end in beam.ends.of(LONGITUDINAL)]
-    held = [
-        (float(beam.x[0]), axial[0] + _END[beam.ends.left]),
-        (float(beam.x[-1]), axial[1] + _END[beam.ends.right]),
-    ]
-    for item in beam.attachments:
-        if isinstance(item, Spring):
-            infinite = [dof for dof, k in _stiffness(item, SI).items() if math.isinf(k)]
-            held.append((item.x, "".join(map(str, infinite))))
-    return [(x, freedoms) for x, freedoms in held if freedoms]
+def _axial_force(mesh: Mesh, system: System, analysis: Analysis) -> Iterator[str]:
+    if analysis in ("statsub", "buckling"):
+        yield from _forces(mesh, system, springs=analysis == "statsub")
+    elif analysis == "modes":
+        yield from _strings(mesh, system)
 
 
-def _supports(beam: Beam, elements: Elements) -> Iterator[str]:
-    for x, freedoms in _held_freedoms(beam):
-        yield card_text("SPC1", _MODAL, freedoms, _node(elements, x) + 1)
-
-
-def _preload(beam: Beam, elements: Elements, system: System) -> Iterator[str]:
-    """Yield the forces along x that leave N in the elements, and what holds the beam meanwhile."""
-    yield card_text("SPC1", _STATIC, "126", 1)
-    steps = np.diff(elements.N, prepend=0.0, append=0.0) + _spring_forces(beam, elements)
-    for k in np.flatnonzero(np.abs(steps) > 1e-12 * np.max(np.abs(elements.N))).tolist():
-        force = float(steps[k] * system.force)
+def _forces(mesh: Mesh, system: System, *, springs: bool) -> Iterator[str]:
+    """Yield the forces along x that leave N in the elements."""
+    moved = mesh.stretch()
+    forces = mesh.nodal_forces(moved if springs else 0.0 * moved)
+    for k in np.flatnonzero(np.abs(forces) > 1e-12 * np.max(np.abs(mesh.N))).tolist():
+        force = float(forces[k] * system.force)
         yield card_text("FORCE", _LOAD, k + 1, None, force, 1.0, 0.0, 0.0)
 
 
-def _spring_forces(beam: Beam, elements: Elements) -> Array:
-    """Return what axial springs take of the forces at the nodes in subcase 1, ``k u`` [N]."""
-    short = elements.N * np.diff(elements.x) / elements.EA
-    u = -np.append(0.0, np.cumsum(short))
-    N_left = np.append(elements.N, 0.0)
-    forces = np.zeros(len(u))
-    for item in beam.attachments:
-        if isinstance(item, Joint):  # the nodes right of it move by -N f
-            at = _node(elements, item.x)
-            u[at + 1 :] -= N_left[at] * item.axial
-    for item in beam.attachments:
-        if isinstance(item, Spring) and math.isfinite(item.axial):
-            at = _node(elements, item.x)
-            forces[at] += item.axial * u[at]
-    return forces
+def _strings(mesh: Mesh, system: System) -> Iterator[str]:
+    """Yield the springs across the elements that N amounts to."""
+    for k in np.flatnonzero(mesh.N).tolist():
+        stiffness = float(-mesh.N[k] / mesh.lengths[k] * system.force / system.length)
+        left, right = _grids(mesh, k)
+        yield card_text("CELAS2", _STRING + k + 1, stiffness, left, LATERAL, right, LATERAL)

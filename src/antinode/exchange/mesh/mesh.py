@@ -1,0 +1,158 @@
+"""A beam as uniform elements between nodes, with what is attached to these: the mesh of a deck."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeVar
+
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.beam.attachments import Joint, PointMass, Spring
+from antinode.beam.beam import Beam
+from antinode.beam.families import LONGITUDINAL
+
+Item = TypeVar("Item", PointMass, Spring, Joint)
+
+SLENDER = 1e-3
+"""Radius of gyration in lengths of a beam without EA."""
+AXIAL, LATERAL, TURN = 1, 2, 6
+"""Freedoms of a node, as NASTRAN and CalculiX number them: along x, along y, about z."""
+_GAUSS = 0.5 - math.sqrt(3) / 6, 0.5 + math.sqrt(3) / 6
+_END = {"free": (), "pinned": (LATERAL,), "sliding": (TURN,), "clamped": (LATERAL, TURN)}
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Uniform elements from left to right, SI.
+
+    Attributes
+    ----------
+    beam : Beam
+        Whose attachments and ends these are.
+    x : array, shape (n + 1,)
+    mass, EI, EA, N : array, shape (n,)
+    """
+
+    beam: Beam
+    x: Array
+    mass: Array
+    EI: Array
+    EA: Array
+    N: Array
+
+    @property
+    def count(self) -> int:
+        """The number of elements."""
+        return len(self.N)
+
+    @property
+    def lengths(self) -> Array:
+        """Of the elements [m]."""
+        return np.diff(self.x)
+
+    @property
+    def shear_modulus(self) -> float:
+        """G of solid elements in E: little shear is left, and no more digits than that are lost.
+
+        Of a section of depth h its share in mode k is about `(k h/L)^2 E/G`.
+        """
+        slenderness2 = 12 * float(np.max(self.EI / self.EA)) / self.beam.length**2
+        return min(max(1e5 * slenderness2, 1.0), 100.0)
+
+    def node(self, x: float) -> int:
+        """Return the node at a station."""
+        return int(np.argmin(np.abs(self.x - x)))
+
+    def attached(self, kind: type[Item]) -> list[tuple[int, Item]]:
+        """Return what of a kind is attached, with its nodes."""
+        items = self.beam.attachments
+        return [(self.node(item.x), item) for item in items if isinstance(item, kind)]
+
+    @cached_property
+    def joints(self) -> dict[int, dict[int, float]]:
+        """The compliance by freedom at each node that has a joint, and so two sides."""
+        found: dict[int, dict[int, float]] = {}
+        for node, item in self.attached(Joint):
+            here = found.setdefault(node, {AXIAL: 0.0, TURN: 0.0})
+            here[AXIAL] += item.axial
+            here[TURN] += item.rotational
+        return dict(sorted(found.items()))
+
+    @property
+    def masses(self) -> list[tuple[int, PointMass]]:
+        """Masses with their nodes."""
+        return self.attached(PointMass)
+
+    @property
+    def springs(self) -> list[tuple[int, int, float]]:
+        """Finite springs to the ground: node, freedom, stiffness."""
+        return [row for row in self._all_springs() if 0 < row[2] < math.inf]
+
+    def _all_springs(self) -> list[tuple[int, int, float]]:
+        rows = []
+        for node, item in self.attached(Spring):
+            stiffness = {AXIAL: item.axial, LATERAL: item.translational, TURN: item.rotational}
+            rows += [(node, freedom, k) for freedom, k in stiffness.items()]
+        return rows
+
+    @property
+    def held(self) -> set[tuple[int, int]]:
+        """What the ends and supports hold: node and freedom."""
+        ends, last = self.beam.ends, self.count
+        found = {(0, freedom) for freedom in _END[ends.left]}
+        found |= {(last, freedom) for freedom in _END[ends.right]}
+        axial = zip((0, last), ends.of(LONGITUDINAL), strict=True)
+        found |= {(node, AXIAL) for node, end in axial if end == "fixed"}
+        return found | {
+            (node, freedom) for node, freedom, k in self._all_springs() if k == math.inf
+        }
+
+    def held_under(self, *, buckling: bool) -> list[tuple[int, int]]:
+        """Return what holds a solver's mesh: under buckling loads N must be free to act."""
+        if not buckling:
+            return sorted(self.held)
+        return sorted({(0, AXIAL), *(own for own in self.held if own[1] != AXIAL)})
+
+    def stretch(self) -> Array:
+        """Return how far N moves the nodes [m], on the left side of a joint; node 0 stays."""
+        moved = -np.append(0.0, np.cumsum(self.N / self.EA * self.lengths))
+        for node, compliance in self.joints.items():
+            moved[node + 1 :] -= (self.N[node - 1] if node else 0.0) * compliance[AXIAL]
+        return np.asarray(moved)
+
+    def nodal_forces(self, moved: Array) -> Array:
+        """Return the forces along x at the nodes that leave N in the elements [N].
+
+        They are the steps of N, and what axial springs take of them where the nodes have moved.
+        """
+        forces = np.diff(self.N, prepend=0.0, append=0.0)
+        for node, freedom, k in self.springs:
+            if freedom == AXIAL:
+                forces[node] += k * moved[node]
+        return np.asarray(forces)
+
+
+def mesh_of(beam: Beam, count: int) -> Mesh:
+    """Return a beam as uniform elements, at least so many, with breakpoints at their ends."""
+    pieces = np.ceil(np.diff(beam.x) / beam.length * count - 1e-9).astype(int).clip(1)
+    k = np.repeat(np.arange(len(pieces)), pieces)
+    within = np.concatenate([np.arange(n) for n in pieces])
+    size = 1 / pieces[k]
+    x = np.append(beam.x[k] + np.diff(beam.x)[k] * within * size, beam.x[-1])
+
+    def mean(values: Array, power: int = 1) -> Array:
+        sides = [beam.at(values, k, (within + g) * size) ** power for g in _GAUSS]
+        return np.asarray(np.mean(sides, axis=0) ** power)
+
+    EI, EA = mean(beam.bending_stiffness, -1), beam.axial_stiffness
+    return Mesh(
+        beam,
+        x,
+        mean(beam.mass_per_length),
+        EI,
+        EI / (SLENDER * beam.length) ** 2 if EA is None else mean(EA, -1),
+        np.mean([beam.axial_force_at(k, (within + g) * size) for g in _GAUSS], axis=0),
+    )
