@@ -270,7 +270,7 @@ def _internal_table(case: Case, headings: Iterable[str], decimals: int) -> Table
 
 def _validity_table(case: Case, brief: bool) -> Table:
     """Return the ranges; a narrow terminal has all but the verdict in one column."""
-    words = ("correlation", "quantity", "value", "valid range", "")
+    words: tuple[str, ...] = ("correlation", "quantity", "value", "valid range", "")
     if brief:
         words = ("correlation: quantity; valid range", "")
     table = new_table(*words, left=range(len(words)))
