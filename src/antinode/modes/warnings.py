@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from antinode.beam.beam import Beam
+from antinode.beam.plausible import doubts
 
 from .result import Mode
 
@@ -26,9 +27,14 @@ SHEAR_BUCKLES = (
     "to first order shear and rotary inertia would lower omega^2 below zero (the frequency by "
     f"{_MOST:.0%} or more): in truth the mode may be past buckling"
 )
+SHEAR_BEYOND = (
+    "shear and rotary inertia lower the frequency by more than an estimate to first order can "
+    "tell; use a Timoshenko model there"
+)
 SHEAR_LOWERS = (
     "shear and rotary inertia, which the model leaves out, lower the frequency by more than "
-    f"{MODEL_LIMIT:.0%}; use a Timoshenko model there"
+    f"{MODEL_LIMIT:.0%} (as of a thin-walled tube; solid sections have less shear); use a "
+    "Timoshenko model there"
 )
 
 
@@ -47,7 +53,7 @@ def _rotation_warning(beam: Beam) -> str:
 
 def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
     """Return what a user should know of these modes, a sentence each."""
-    warnings = []
+    warnings = doubts(beam)
     divergent = [m.name for m in modes if m.kind == "divergent" and m.number]
     if divergent:
         warnings.append(f"{', '.join(divergent)}: omega^2 < 0, {PAST_BUCKLING}")
@@ -59,14 +65,35 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
             f"{', '.join(shapeless)}: modes that coincide, whose shapes could not be told apart; "
             "the frequencies and their counts hold"
         )
-    errors = [(m.name, m.model_error) for m in modes if m.model_error is not None]
-    large = [name for name, error in errors if abs(error) > MODEL_LIMIT]
-    if large:
-        warnings.append(f"{large[0]} and above: {SHEAR_LOWERS}")
-    buckled = [name for name, error in errors if shear_buckles(error)]
+    return warnings + _shear_warnings(beam, modes)
+
+
+def _shear_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
+    """Return what the first-order effect of shear and rotary inertia means where it is large."""
+    errors = [(m, m.model_error) for m in modes if m.model_error is not None]
+    large = [m.name for m, error in errors if abs(error) > MODEL_LIMIT]
+    past = [m for m, error in errors if shear_buckles(error)]
+    stable = [m.name for m in past if beam.is_unloaded or _is_stable_in_shear(m)]
+    buckled = [m.name for m in past if m.name not in stable]
+    warnings = [f"{large[0]} and above: {SHEAR_LOWERS}"] if large else []
     if buckled:
         warnings.append(f"{', '.join(buckled)}: {SHEAR_BUCKLES}")
+    if stable:
+        warnings.append(f"{', '.join(stable)}: {SHEAR_BEYOND}")
     return warnings
+
+
+def _is_stable_in_shear(mode: Mode) -> bool:
+    """Tell whether a mode is known not to be past buckling with shear.
+
+    The elastic part of omega^2, that of the unloaded beam, goes down by flexibilities in series,
+    ``1/omega0^2 -> 1/omega0^2 + 2 e0/omega0^2``; the part of the axial force stays.
+    """
+    unloaded = mode.unloaded_omega2
+    if mode.model_error is None or unloaded is None:
+        return False
+    small = -2 * mode.model_error * mode.omega2 / unloaded
+    return unloaded / (1 + small) > unloaded - mode.omega2
 
 
 def shear_buckles(effect: Any) -> Any:

@@ -21,7 +21,7 @@ from .formats import ENDINGS, check_libraries
 from .html import to_html
 from .pdf import to_pdf
 from .provenance import source_of
-from .vehicle_report import vehicle_report
+from .vehicle_report import vehicle_report, vehicle_warnings
 
 
 def run_report(
@@ -74,7 +74,7 @@ def make_report(
         result = _solved(case, modes, tolerance)
         command = f"antinode modes {file.name}{overrides}"
         document = vehicle_report(case, result, source_of(file, assignments, case), command)
-        return document, [*case.loads.warnings, *result.warnings]
+        return document, vehicle_warnings(case, result)
     beam = load_beam(file, assignments)
     result = _solved(beam, modes, tolerance)
     command = f"antinode beam {file.name}{overrides}"

@@ -6,12 +6,11 @@ import math
 from collections.abc import Iterator
 from types import ModuleType
 
-import numpy as np
-
+from antinode.show.loads_table import EXPLANATION, HEADINGS, internal_rows
 from antinode.vehicle.case import Case
 from antinode.vehicle.hydrodynamics import cavitator, cavity, fins, planing
 from antinode.vehicle.hydrodynamics.validity import Range, Validity
-from antinode.vehicle.statics import static_shape
+from antinode.vehicle.statics import FRAME, static_shape
 
 from .blocks import Block, Section, paragraph, table
 from .numbers import number, small
@@ -79,21 +78,12 @@ def _checks(case: Case) -> Iterator[Block]:
 
 
 def _internal(case: Case) -> Block:
-    loads, x = case.loads, np.linspace(0, case.vehicle.length, _STATIONS)
     shape = static_shape(case)
-    columns = (
-        x,
-        loads.axial_force(x) / 1e3,
-        loads.shear_force(x) / 1e3,
-        loads.bending_moment(x) / 1e3,
-        np.interp(x, shape.x, shape.lateral) * 1e3,
-        np.interp(x, shape.x, shape.axial) * 1e3,
-    )
-    rows = [[_fixed(v) for v in row] for row in zip(*columns, strict=True)]
-    head = ("x [m]", "N [kN]", "Q [kN]", "M [kN m]", "deflection [mm]", "axial [mm]")
+    rows = [[_fixed(v) for v in row] for row in internal_rows(case, shape, _STATIONS).tolist()]
     return table(
-        "Internal forces (at a step the value ahead of it) and static displacements.",
-        head,
+        "Internal forces (at a step the value ahead of it) and static displacements. "
+        f"{EXPLANATION}{FRAME}",
+        HEADINGS,
         rows,
         left=(),
     )

@@ -9,6 +9,7 @@ from antinode.modes.result import ModalResult
 from antinode.show.figures import case_title, plot_loads, plot_shapes
 from antinode.study.sensitivity.influence import case_influences
 from antinode.vehicle.case import Case
+from antinode.vehicle.statics import deflection_warnings, static_shape
 
 from .blocks import Block, Document, Section, paragraph, runs, warnings
 from .influence_section import influence_section
@@ -22,9 +23,15 @@ from .words import method_section
 _MOST_DRAWN = 6
 
 
+def vehicle_warnings(case: Case, result: ModalResult) -> list[str]:
+    """Return what is doubtful about a case: its loads, its static deflection, its modes."""
+    bent = deflection_warnings(case, static_shape(case))
+    return [*case.loads.warnings, *bent, *result.warnings]
+
+
 def vehicle_report(case: Case, result: ModalResult, source: Source, command: str) -> Document:
     """Return the document on a case and its modes, solved with `unloaded=True`."""
-    told = [*case.loads.warnings, *result.warnings]
+    told = vehicle_warnings(case, result)
     sections = [
         method_section(result.families, vehicle=True),
         *case_inputs(case),

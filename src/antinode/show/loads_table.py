@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from antinode.beam.plausible import doubts
 from antinode.extras import import_extra
+from antinode.vehicle.statics import deflection_warnings
 from antinode.version import __version__
 
 if TYPE_CHECKING:
@@ -16,34 +18,36 @@ if TYPE_CHECKING:
 
     from antinode.modes.result import ModalResult
     from antinode.vehicle.case import Case
+    from antinode.vehicle.statics import StaticShape
 
 _COLUMNS = (
     ("x", "m", "position from the nose"),
     ("N", "N", "axial force, compression positive"),
     ("Q", "N", "static shear force"),
-    ("M", "N m", "static bending moment, EI Y''"),
+    ("M", "N m", "static bending moment of the loads on the straight body"),
+    ("M_bent", "N m", "static bending moment EI u'', with the axial force on the bent axis"),
     ("u_Y", "m", "static lateral deflection, up, relative to the mean axis"),
     ("u_X", "m", "static axial displacement, aft, relative to the nose"),
 )
 
 
-def internal_forces(case: Case, points: int = 201) -> dict[str, np.ndarray]:
+def internal_forces(case: Case, shape: StaticShape, points: int = 201) -> dict[str, np.ndarray]:
     """Return N, Q, M and the static displacements along the body, jumps with both sides.
 
     Parameters
     ----------
     case : Case
+    shape : StaticShape
+        Its static displacements.
     points : int
         Number of evenly spaced positions, beside the breakpoints.
 
     Returns
     -------
     dict
-        Arrays ``x`` [m], ``N`` [N], ``Q`` [N], ``M`` [N m], ``u_Y`` and ``u_X`` [m] of equal
-        length; Q and M are those of the straight body.
+        Arrays ``x`` [m], ``N`` [N], ``Q`` [N], ``M`` and ``M_bent`` [N m], ``u_Y`` and ``u_X`` [m]
+        of equal length; Q and M are those of the straight body, M_bent is EI u''.
     """
-    from antinode.vehicle.statics import static_shape
-
     loads = case.loads
     x = np.unique(np.concatenate([np.linspace(0, case.vehicle.length, points), loads.breakpoints]))
     sides = [(loads.axial_force(x, side), loads.shear_force(x, side)) for side in ("left", "right")]
@@ -54,10 +58,35 @@ def internal_forces(case: Case, points: int = 201) -> dict[str, np.ndarray]:
     def both(left: np.ndarray, right: np.ndarray) -> np.ndarray:
         return np.asarray(np.stack([left, right], axis=1).ravel()[keep])
 
-    M, shape = loads.bending_moment(x), static_shape(case)
-    u_Y, u_X = (np.interp(x, shape.x, u) for u in (shape.lateral, shape.axial))
-    smooth = {name: both(v, v) for name, v in (("x", x), ("M", M), ("u_Y", u_Y), ("u_X", u_X))}
-    return {**smooth, "N": both(N0, N1), "Q": both(Q0, Q1)}
+    smooth = {"x": x, "M": loads.bending_moment(x), **bent(shape, x)}
+    whole = {name: both(v, v) for name, v in smooth.items()}
+    return {**whole, "N": both(N0, N1), "Q": both(Q0, Q1)}
+
+
+def bent(shape: StaticShape, x: np.ndarray) -> dict[str, np.ndarray]:
+    """Return ``M_bent`` [N m], ``u_Y`` and ``u_X`` [m] of a static shape at `x` [m]."""
+    table = {"M_bent": shape.moment, "u_Y": shape.lateral, "u_X": shape.axial}
+    return {name: np.interp(x, shape.x, values) for name, values in table.items()}
+
+
+HEADINGS = ("x [m]", "N [kN]", "Q [kN]", "M [kN m]", "EI u'' [kN m]", "u_Y [mm]", "u_X [mm]")
+"""Of the table of internal forces."""
+EXPLANATION = "M: of the loads on the straight body. EI u'': with N on the bent one. "
+"""What the two moments are."""
+
+
+def internal_rows(case: Case, shape: StaticShape, rows: int) -> np.ndarray:
+    """Return the table of internal forces at even positions, in the units of the headings."""
+    loads, x = case.loads, np.linspace(0, case.vehicle.length, rows)
+    forces = (loads.axial_force(x), loads.shear_force(x), loads.bending_moment(x))
+    M_bent, u_Y, u_X = bent(shape, x).values()
+    thousand = (*(force / 1e3 for force in forces), M_bent / 1e3, u_Y * 1e3, u_X * 1e3)
+    return np.stack([x, *thousand], axis=1)
+
+
+def loads_warnings(case: Case, shape: StaticShape) -> list[str]:
+    """Return all that is doubtful about the loads, the static deflection and the beam."""
+    return [*doubts(case.beam()), *case.loads.warnings, *deflection_warnings(case, shape)]
 
 
 def condition_dict(case: Case) -> dict[str, Any]:
@@ -88,6 +117,7 @@ def loads_summary(case: Case) -> dict[str, Any]:
         "forces": [
             {"name": f.name, "x_m": f.x, "drag_N": f.F_X, "lift_N": f.F_Y} for f in loads.forces
         ],
+        "drag_N": loads.drag,
         "thrust_N": loads.thrust,
         "weight_N": loads.weight,
         "mass_kg": loads.mass,
@@ -96,6 +126,7 @@ def loads_summary(case: Case) -> dict[str, Any]:
         "acceleration_forward_m_per_s2": loads.a_X,
         "acceleration_up_m_per_s2": loads.a_Y,
         "angular_acceleration_nose_up_rad_per_s2": loads.beta,
+        "in_balance": loads.is_balanced,
         "axial_force_nose_N": float(N[0]),
         "axial_force_tail_N": float(N[1]),
         "checks": loads.checks._asdict(),
@@ -110,10 +141,10 @@ def modes_dict(case: Case, result: ModalResult) -> dict[str, Any]:
     return data
 
 
-def loads_dict(case: Case) -> dict[str, Any]:
+def loads_dict(case: Case, shape: StaticShape) -> dict[str, Any]:
     """Return all that is known of the loads as plain numbers for JSON, units in the keys."""
     loads, planing = case.loads, case.loads.planing
-    table = internal_forces(case)
+    table = internal_forces(case, shape)
     return {
         "schema_version": 1,
         "name": case.vehicle.name,
@@ -132,14 +163,15 @@ def loads_dict(case: Case) -> dict[str, Any]:
         "internal": {
             f"{name}_{unit.replace(' ', '_')}": table[name].tolist() for name, unit, _ in _COLUMNS
         },
+        "meanings": {name: text for name, _, text in _COLUMNS},
         "validity": [row._asdict() for row in loads.validity],
-        "warnings": list(loads.warnings),
+        "warnings": loads_warnings(case, shape),
     }
 
 
-def loads_csv(case: Case) -> str:
+def loads_csv(case: Case, shape: StaticShape) -> str:
     """Return N, Q, M along the body as CSV with units in the header."""
-    table, out = internal_forces(case), io.StringIO()
+    table, out = internal_forces(case, shape), io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow([f"{name} [{unit}]" for name, unit, _ in _COLUMNS])
     writer.writerows(
@@ -149,10 +181,10 @@ def loads_csv(case: Case) -> str:
     return out.getvalue()
 
 
-def loads_dataset(case: Case) -> xarray.Dataset:
+def loads_dataset(case: Case, shape: StaticShape) -> xarray.Dataset:
     """Return N, Q, M along the body as a Dataset with units, forces and checks in its attrs."""
     xr = import_extra("xarray", "dataset")
-    table = internal_forces(case)
+    table = internal_forces(case, shape)
     data = {
         name: ("point", table[name], {"units": unit, "long_name": text})
         for name, unit, text in _COLUMNS
@@ -165,7 +197,7 @@ def loads_dataset(case: Case) -> xarray.Dataset:
         "mass_kg": loads.mass,
         "acceleration_forward_m_per_s2": loads.a_X,
         "worst_check": loads.checks.worst,
-        "warnings": "\n".join(loads.warnings),
+        "warnings": "\n".join(loads_warnings(case, shape)),
     }
     dataset: xarray.Dataset = xr.Dataset(data, attrs=attributes)
     return dataset

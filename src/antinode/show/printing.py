@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from antinode.modes.buckling import Buckling
     from antinode.modes.verify import Check
     from antinode.vehicle.case import Case
+    from antinode.vehicle.statics import StaticShape
 
 _WIDTH = 104
 _LONGEST_NAME = 80
@@ -170,14 +171,17 @@ def show_warnings(out: Console, warnings: Iterable[str]) -> None:
 
 def show_condition(out: Console, case: Case) -> None:
     """Print the condition and the loads in a few lines."""
-    c, loads = case.condition, case.loads
+    loads = case.loads
     name = _plain(case.vehicle.name)
     out.print(f"[bold]{name}[/bold]  {_condition_text(case)}", highlight=False)
-    planing = "none" if loads.F_PX == 0 and loads.F_PY == 0 else f"{_kN(loads.F_PX)} kN"
     out.print(
-        f"cavity {loads.cavity.L_c:.3g} m long, {loads.cavity.D_c:.3g} m wide; drag: cavitator "
-        f"{_kN(loads.F_CX)} kN, fins {_kN(loads.F_fX)} kN, planing {planing}; "
-        f"thrust {_kN(c.thrust)} kN; acceleration {loads.a_X:.3g} m/s^2",
+        f"cavity {loads.cavity.L_c:.3g} m long, {loads.cavity.D_c:.3g} m wide; drag: "
+        f"{_drag_text(case)}; thrust {_kN(loads.thrust)} kN",
+        highlight=False,
+    )
+    out.print(
+        f"acceleration {loads.a_X:.3g} m/s^2 forward, {loads.a_Y:.3g} m/s^2 up, {loads.beta:.3g} "
+        f"rad/s^2 nose-up{loads.unbalanced}",
         highlight=False,
     )
     ends = loads.axial_force(np.array([0.0, case.vehicle.length]))
@@ -187,6 +191,19 @@ def show_condition(out: Console, case: Case) -> None:
         f"{loads.checks.worst:.0e}",
         highlight=False,
     )
+
+
+def _drag_text(case: Case) -> str:
+    """Return the drag of each kind of force."""
+    loads, extra = case.loads, case.condition.extra_drag
+    planing = "none" if loads.F_PX == 0 and loads.F_PY == 0 else f"{_kN(loads.F_PX)} kN"
+    parts = [
+        f"cavitator {_kN(loads.F_CX)} kN",
+        f"fins {_kN(loads.F_fX)} kN",
+        f"planing {planing}",
+        f"extra {_kN(extra)} kN" if extra else "",
+    ]
+    return ", ".join(part for part in parts if part)
 
 
 def _condition_text(case: Case) -> str:
@@ -212,14 +229,19 @@ def _kN(force: float) -> str:
     return f"{force / 1e3:.4g}"
 
 
-def show_loads(out: Console, case: Case) -> None:
+def show_loads(out: Console, case: Case, shape: StaticShape) -> None:
     """Print forces, accelerations, checks and validity ranges of a case."""
+    from antinode.vehicle.statics import FRAME
+
+    from .loads_table import EXPLANATION, loads_warnings
+
     show_condition(out, case)
     out.print(_forces_table(case))
-    choices = ((_INTERNAL, 4), (_INTERNAL.values(), 4), (_INTERNAL.values(), 2))
-    out.print(_fitting((_internal_table(case, *choice) for choice in choices), out))
+    tables = (_internal_table(case, shape, decimals) for decimals in (4, 2))
+    out.print(_fitting(tables, out))
+    out.print(f"[dim]{EXPLANATION}{FRAME}[/dim]", highlight=False)
     out.print(_fitting((_validity_table(case, brief) for brief in (False, True)), out))
-    show_warnings(out, case.loads.warnings)
+    show_warnings(out, loads_warnings(case, shape))
 
 
 def _forces_table(case: Case) -> Table:
@@ -236,33 +258,11 @@ def _forces_table(case: Case) -> Table:
     return table
 
 
-_INTERNAL = {
-    "x [m]": "x [m]",
-    "N [kN]": "N [kN]",
-    "Q [kN]": "Q [kN]",
-    "M [kN m]": "M [kN m]",
-    "deflection [mm]": "u_Y [mm]",
-    "axial [mm]": "u_X [mm]",
-}
-"""Headings of the table along the body, and what they shrink to on a narrow terminal."""
+def _internal_table(case: Case, shape: StaticShape, decimals: int) -> Table:
+    from .loads_table import HEADINGS, internal_rows
 
-
-def _internal_table(case: Case, headings: Iterable[str], decimals: int) -> Table:
-    from antinode.vehicle.statics import static_shape
-
-    loads, x = case.loads, np.linspace(0, case.vehicle.length, 9)
-    shape = static_shape(case)
-    table = new_table(*headings, left=())
-    rows = zip(
-        x,
-        loads.axial_force(x) / 1e3,
-        loads.shear_force(x) / 1e3,
-        loads.bending_moment(x) / 1e3,
-        np.interp(x, shape.x, shape.lateral) * 1e3,
-        np.interp(x, shape.x, shape.axial) * 1e3,
-        strict=True,
-    )
-    for position, *forces in rows:
+    table = new_table(*HEADINGS, left=())
+    for position, *forces in internal_rows(case, shape, 9).tolist():
         texts = (f"{round(force, decimals) + 0.0:.{decimals}f}" for force in forces)
         _row(table, f"{position:.3f}", *texts)
     return table

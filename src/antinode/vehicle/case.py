@@ -59,8 +59,17 @@ class Case(Frozen):
         )
 
     def beam(self) -> Beam:
-        """Return the free-free beam under the axial force of this condition."""
-        return vehicle_beam(self.vehicle, self.loads, self.condition.burn_fraction)
+        """Return the free-free beam under the axial force of this condition.
+
+        Raises
+        ------
+        InputError
+            If its numbers are beyond all reason.
+        """
+        beam = vehicle_beam(self.vehicle, self.loads, self.condition.burn_fraction)
+        with naming(f"at {self.condition.speed:g} m/s"):
+            check_limits(beam)
+        return beam
 
 
 def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float) -> Beam:
@@ -151,5 +160,5 @@ def load_case(path: str | Path, assignments: Iterable[str] = ()) -> Case:
         raise InputError(f"{path}: this is a beam file; use 'antinode beam {path}'")
     case = validate(Case, tables, where, elsewhere)
     with naming(where):
-        check_limits(case.beam())
+        case.beam()
     return case

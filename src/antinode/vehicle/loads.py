@@ -42,6 +42,9 @@ from .vehicle import Vehicle
 
 Side = Literal["left", "right"]
 
+_BALANCED = 1.0
+"""Lateral accelerations below this are small [m/s^2]: a tenth of the weight."""
+
 
 class FinLoad(NamedTuple):
     """The forces of one set of fins.
@@ -140,6 +143,21 @@ class Loads(LoadNumbers[float]):
     def weight(self) -> float:
         """Weight m g [N]."""
         return self.mass * self.gravity
+
+    @property
+    def drag(self) -> float:
+        """Drag of all forces, aft [N]."""
+        return float(drag_ahead(self.forces, lambda _: True))
+
+    @property
+    def largest_lateral_acceleration(self) -> float:
+        """The largest of ``a_Y + beta (x_M - x)`` along the body, as a size [m/s^2]."""
+        return max(abs(self.a_Y + self.beta * (self.x_M - x)) for x in (0.0, self.length))
+
+    @property
+    def is_balanced(self) -> bool:
+        """Whether the lateral forces leave less than 1 m/s^2 anywhere along the body."""
+        return self.largest_lateral_acceleration < _BALANCED
 
     @property
     def axial_inertia(self) -> float:
@@ -264,6 +282,14 @@ class Loads(LoadNumbers[float]):
     def _drag_ahead(self, x: Array, side: Side) -> Array:
         return np.asarray(drag_ahead(self.forces, lambda f: self._counts(f, x, side)) + 0 * x)
 
+    @property
+    def unbalanced(self) -> str:
+        """What the body does for want of balance, in words that follow on its accelerations."""
+        drag, thrust, across = self.drag / 1e3, self.thrust / 1e3, self.largest_lateral_acceleration
+        slows = f"; drag {drag:.4g} kN is above thrust {thrust:.4g} kN: the body slows down"
+        turns = f"; not in balance: up to {across:.3g} m/s^2 across the body"
+        return (slows if self.a_X < 0 else "") + ("" if self.is_balanced else turns)
+
     def __str__(self) -> str:
         return "\n".join(self._lines())
 
@@ -282,7 +308,7 @@ class Loads(LoadNumbers[float]):
         yield (
             f"body: {self.mass:.5g} kg, centre of mass at x = {self.x_M:.4g} m; "
             f"acceleration {self.a_X:.4g} m/s^2 forward, {self.a_Y:.4g} m/s^2 up, "
-            f"{self.beta:.4g} rad/s^2 nose-up"
+            f"{self.beta:.4g} rad/s^2 nose-up{self.unbalanced}"
         )
         yield f"balance of N, Q and M at the ends closes to {self.checks.worst:.1e}"
         yield from (f"warning: {warning}" for warning in self.warnings)

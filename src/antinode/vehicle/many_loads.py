@@ -19,6 +19,7 @@ from .balance import balance, mass_of
 from .forces import Hydrodynamics, hydrodynamics
 from .load_warnings import CheckedRange, LoadWarning, checked_ranges, load_warnings
 from .numbers import ManyCases
+from .plausible import doubtful_vehicles
 from .refusals import NOT_FINITE, Refusals
 
 T = TypeVar("T")
@@ -111,7 +112,11 @@ class ManyLoads(LoadNumbers[Array]):
     def warnings(self) -> tuple[LoadWarning, ...]:
         """What is doubtful, with values and cases."""
         with np.errstate(all="ignore"):
-            return load_warnings(self.cases, self.hydrodynamics, self.refusals.none)
+            counted = self.refusals.none
+            return (
+                *doubtful_vehicles(self.cases, self.mass, counted),
+                *load_warnings(self.cases, self.hydrodynamics, counted),
+            )
 
 
 def loads_of_many(cases: ManyCases) -> ManyLoads:

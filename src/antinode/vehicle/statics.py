@@ -12,6 +12,7 @@ rotation). Axial: ``du/dx = -N/EA``, relative to the nose.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -41,6 +42,8 @@ class StaticShape(NamedTuple):
         Bending moment EI u'' with the axial force on the bent axis [N m].
     axial : array
         Displacement aft relative to the nose [m].
+    diverging : int
+        Directions of bending in which the compression is past buckling, rigid rotation among them.
     """
 
     x: Array
@@ -48,6 +51,14 @@ class StaticShape(NamedTuple):
     slope: Array
     moment: Array
     axial: Array
+    diverging: int
+
+
+FRAME = (
+    "u_Y: static deflection, up, from the mean axis (it has no mean displacement and no mean "
+    "rotation, weighted by mass). u_X: static displacement, aft, from the nose."
+)
+"""What the displacements are measured from."""
 
 
 def static_shape(case: Case) -> StaticShape:
@@ -76,7 +87,68 @@ def static_shape(case: Case) -> StaticShape:
     u = np.concatenate([[0.0], np.cumsum(rise)])
     mean, turn = _rigid_part(case, x, u)
     axial = -np.concatenate([[0.0], np.cumsum(h * N * inverse_EA)])
-    return StaticShape(x, u - mean - turn * (x - case.loads.x_M), theta - turn, moment, axial)
+    lateral = u - mean - turn * (x - case.loads.x_M)
+    return StaticShape(x, lateral, theta - turn, moment, axial, _diverging(h, N, inverse_EI))
+
+
+def deflection_warnings(case: Case, shape: StaticShape) -> list[str]:
+    """Return what the static deflection says against the loads it is computed from.
+
+    Parameters
+    ----------
+    case : Case
+    shape : StaticShape
+        Its static displacements.
+    """
+    return [_PAST_BUCKLING] if shape.diverging > 1 else [*_beyond_clearance(case, shape)]
+
+
+_PAST_BUCKLING = (
+    "The compression is past buckling: there is no bent shape at which the body would stay, and "
+    "u_Y and EI u'' mean nothing: reduce the axial forces or stiffen the body."
+)
+
+
+def _beyond_clearance(case: Case, shape: StaticShape) -> Iterator[str]:
+    """Compare the deflection with the room in the cavity, or where there is none with the body."""
+    most, room = float(np.max(np.abs(shape.lateral))), _clearance(case, shape.x)
+    against = f"the clearance between body and cavity of at most {room:.3g} m"
+    if room <= 0:
+        room = float(np.max(case.vehicle.stations.radius))
+        against = f"the body's radius of {room:.3g} m"
+    if most > room:
+        yield (
+            f"The static deflection u_Y of up to {most:.3g} m is beyond {against}: planing, fins, "
+            "N, Q and M are those of the undeformed body, and others act on the bent one; stiffen "
+            "the body, or bring the lateral forces nearer to balance."
+        )
+
+
+def _clearance(case: Case, x: Array) -> float:
+    """Return the largest distance between body and cavity on the narrower side [m].
+
+    Both sides of every node count, for the radius may jump there.
+    """
+    cavity = case.loads.cavity
+    x = np.concatenate([x, np.nextafter(x, 0.0)])[np.tile(x <= cavity.L_c, 2)]
+    room = cavity.radius(x) - case.vehicle.radius_at(x) - np.abs(cavity.axis_offset(x))
+    return float(np.max(room))
+
+
+def _diverging(h: Array, N: Array, inverse_EI: Array) -> int:
+    """Count the negative eigenvalues of ``int EI theta'^2 - N theta^2`` over slopes theta.
+
+    They are as many as the modes with omega^2 < 0 (Sylvester); linear theta on every piece, whose
+    tridiagonal matrix has as many negative pivots.
+    """
+    k, m = 1 / (h * inverse_EI), N * h / 6
+    inner = k - 2 * m
+    diagonal = np.append(inner, 0.0) + np.append(0.0, inner)
+    count, pivot = 0, 1.0
+    for a, b in zip(diagonal.tolist(), [0.0, *(-k - m).tolist()], strict=True):
+        pivot = (a - b * b / pivot) or 1e-300
+        count += pivot < 0
+    return count
 
 
 def _axial_stiffness(beam: Beam) -> Array:

@@ -27,9 +27,11 @@ def loads(case: Path, /, *, set_: Set = (), output: Output = _OUTPUT) -> None:
     _check(output)
     from antinode.show.loads_table import condition_dict, loads_csv, loads_dataset, loads_dict
     from antinode.vehicle.case import load_case
+    from antinode.vehicle.statics import static_shape
 
     problem = load_case(case, set_)
-    data = {**loads_dict(problem), "condition": condition_dict(problem)}
+    shape = static_shape(problem)
+    data = {**loads_dict(problem, shape), "condition": condition_dict(problem)}
     if output.plot:
         from antinode.show.figures import plot_loads
 
@@ -37,14 +39,19 @@ def loads(case: Path, /, *, set_: Set = (), output: Output = _OUTPUT) -> None:
     if output.file:
         from antinode.show.writing import write_result
 
-        write_result(output.file, data, lambda: loads_csv(problem), lambda: loads_dataset(problem))
+        write_result(
+            output.file,
+            data,
+            lambda: loads_csv(problem, shape),
+            lambda: loads_dataset(problem, shape),
+        )
         say_written(output.file)
     if output.json:
         print_json(data)
     else:
         from antinode.show.printing import console, show_loads
 
-        show_loads(console(), problem)
+        show_loads(console(), problem, shape)
 
 
 def _check(output: Output) -> None:

@@ -1,0 +1,113 @@
+"""Numbers that hardly any beam has: a unit was likely missed.
+
+A bar carries sound at ``c = sqrt(EA/m)``, whatever its section; its section has the radius
+``r = sqrt(EI/EA)``. Both are taken as means over the length, of mass and of compliance, in which
+neither a rigid piece nor one without mass of its own counts.
+
+Sources: sqrt(E/rho) of beryllium 12.9 km/s, steel and aluminium 5.1, lead 1.2, soft rubber some
+0.03 (CRC Handbook of Chemistry and Physics, speed of sound in solids, extensional waves in rods).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from antinode.arrays import Array
+
+from .beam import Beam
+
+FASTEST, SLOWEST = 14e3, 20.0
+"""Of waves along a bar, sqrt(EA/m) [m/s]: above beryllium's, and below that of soft rubber."""
+STOUTEST, SLENDEREST = 0.5, 1e-4
+"""Radius of gyration sqrt(EI/EA) over the length: half of it; and that of a wire, which hangs."""
+
+_MEANT = "if it is meant so, ignore this"
+
+
+def doubts(beam: Beam) -> list[str]:
+    """Return where the numbers of a beam are not of this world, a sentence each.
+
+    Parameters
+    ----------
+    beam : Beam
+
+    Returns
+    -------
+    list of str
+        Empty for any usual structure.
+    """
+    per_length = beam.mass / beam.length
+    own = replace(beam, attachments=()).mass / beam.length
+    EI = 1 / _mean_compliance(beam, beam.bending_stiffness)
+    if beam.axial_stiffness is None:
+        return list(_bending_alone(beam, np.sqrt(EI / per_length), np.sqrt(EI / own)))
+    EA = 1 / _mean_compliance(beam, beam.axial_stiffness)
+    speeds = _wave_speed(float(np.sqrt(EA / per_length)), float(np.sqrt(EA / own)))
+    return [*speeds, *_slenderness(beam, float(np.sqrt(EI / EA)))]
+
+
+def _mean_compliance(beam: Beam, stiffness: Array) -> float:
+    """Return the mean of 1/stiffness over the length, by Simpson's rule on each interval."""
+    h, k = np.diff(beam.x), np.arange(len(beam.x) - 1)
+    middle = beam.at(stiffness, k, np.full(len(k), 0.5))
+    each = (1 / stiffness[:, 0] + 4 / middle + 1 / stiffness[:, 1]) / 6
+    return float(h @ each / beam.length)
+
+
+def _wave_speed(loaded: float, bare: float) -> Iterator[str]:
+    """Doubt sqrt(EA/m), with point masses and without."""
+    if loaded > FASTEST:
+        thousand = SLOWEST < loaded / 1e3 < FASTEST
+        system = "numbers in mm, N and t give such a speed, in mm/s; " if thousand else ""
+        yield (
+            f"a wave runs along this beam at sqrt(EA/m) = {loaded:.3g} m/s, faster than in any "
+            f"material (steel 5,100 m/s, beryllium 12,900): {system}check the units of "
+            "axial_stiffness [N] and mass_per_length [kg/m, not the kg of each piece]; " + _MEANT
+        )
+    elif bare < SLOWEST:
+        yield (
+            f"a wave runs along this beam at sqrt(EA/m) = {bare:.3g} m/s, slower than in soft "
+            "rubber (steel 5,100 m/s): check the units of axial_stiffness [N, not kN or MN] and "
+            "mass_per_length [kg/m]; " + _MEANT
+        )
+
+
+def _slenderness(beam: Beam, r: float) -> Iterator[str]:
+    """Doubt sqrt(EI/EA) against the length."""
+    section = f"the section's radius of gyration sqrt(EI/EA) = {r:.3g} m"
+    if r > STOUTEST * beam.length:
+        thousand = r / 1e3 < STOUTEST * beam.length
+        system = "bending_stiffness in N mm^2 gives such a radius; " if thousand else ""
+        yield (
+            f"{section} is no small part of the length of {beam.length:.4g} m, so this is no beam: "
+            f"{system}check the units of bending_stiffness [N m^2], axial_stiffness [N] and x [m]"
+        )
+    elif r < SLENDEREST * beam.length and _is_bare(beam):
+        yield (
+            f"{section} is {r / beam.length:.1e} of the length of {beam.length:.4g} m, a wire that "
+            "nothing holds straight: check the units of x [m, not mm], bending_stiffness [N m^2] "
+            "and axial_stiffness [N]; " + _MEANT
+        )
+
+
+def _bending_alone(beam: Beam, loaded: float, bare: float) -> Iterator[str]:
+    """Doubt sqrt(EI/m) = r c against the length, where no EA tells the two apart."""
+    check = "check the units of bending_stiffness [N m^2], mass_per_length [kg/m] and x [m]"
+    if loaded > FASTEST * STOUTEST * beam.length:
+        yield (
+            f"sqrt(EI/m) = {loaded:.3g} m^2/s is more than a beam of {beam.length:.4g} m can have "
+            f"in any material (a steel tube one m wide: 1,800 m^2/s): {check}; " + _MEANT
+        )
+    elif bare < SLOWEST * SLENDEREST * beam.length and _is_bare(beam):
+        yield (
+            f"sqrt(EI/m) = {bare:.3g} m^2/s is less than a beam of {beam.length:.4g} m can have in "
+            f"any material (a steel wire one mm thick: 1.3 m^2/s): {check}; " + _MEANT
+        )
+
+
+def _is_bare(beam: Beam) -> bool:
+    """Tell whether nothing along the beam holds it, neither a tension nor a support."""
+    return beam.is_unloaded and not beam.attachments

@@ -1,0 +1,110 @@
+"""Numbers that hardly any beam has are doubted, and those of real structures are not."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from antinode import Beam, Ends, solve_modes
+from antinode.beam.attachments import PointMass, Spring
+from antinode.beam.plausible import doubts
+from cli_run import run
+
+CLAMPED = Ends("clamped", "free")
+
+
+def bar(d=0.04, length=1.2, E=2.1e11, rho=7850.0, m=1.0, EI=1.0, EA=1.0, x=1.0, ends=CLAMPED):
+    """A round bar, its columns times factors of a missed unit; EA = None leaves it out."""
+    A = math.pi * d**2 / 4
+    stiffness = None if EA is None else E * A * EA
+    own = rho * A * m, E * A * d**2 / 16 * EI
+    return Beam.from_stations([0.0, x * length], *own, stiffness, ends=ends)
+
+
+STEEL, POLYMER = {}, {"d": 0.02, "length": 0.5, "E": 2.4e9, "rho": 1200.0}
+CABLE = {"d": 0.006, "length": 3.0, "E": 1.1e11, "rho": 8900.0}
+PILE = {"d": 2.5, "length": 60.0, "E": 3.2e10, "rho": 2500.0}
+ROTOR = {"d": 0.3, "length": 0.9}
+
+
+@pytest.mark.parametrize("body", [STEEL, POLYMER, CABLE, PILE, ROTOR])
+@pytest.mark.parametrize("EA", [1.0, None])
+def test_real_structures_are_not_doubted(body, EA):
+    assert doubts(bar(**body, EA=EA)) == []
+
+
+@pytest.mark.parametrize("example", ["beam", "tower", "rocket", "drill_string", "shaft"])
+def test_the_examples_are_not_doubted(example, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    run("init", "--example", example, ".")
+    told = json.loads(run("beam", "beam.toml", "--modes", "2", "--json").out)["warnings"]
+    assert not any("check the unit" in text for text in told)
+
+
+@pytest.mark.parametrize("body", [STEEL, POLYMER, PILE])
+@pytest.mark.parametrize(
+    ("missed", "word"),
+    [
+        ({"x": 1e3, "m": 1e-6, "EI": 1e6, "EA": 1.0}, "numbers in mm, N and t"),
+        ({"EI": 1e6}, "in N mm^2 gives"),
+        ({"EI": 1e6, "EA": None}, "sqrt(EI/m)"),
+        ({"x": 1e3, "m": 1e-6, "EI": 1e6, "EA": None}, "sqrt(EI/m)"),
+        ({"x": 1e3}, "x [m, not mm]"),
+        ({"EA": 1e-6}, "sqrt(EA/m)"),
+        ({"EA": 1e-6, "EI": 1e-6}, "not kN or MN"),
+        ({"m": 1e-3, "EA": 1e3}, "faster than in any material"),
+    ],
+)
+def test_missed_units(body, missed, word):
+    if body is PILE and missed == {"x": 1e3}:
+        missed = {"x": 1e3, "EI": 1e-3}
+    if body is POLYMER and missed == {"EA": 1e-6}:
+        word = "radius of gyration"
+    assert any(word in text for text in doubts(bar(**body, **missed)))
+
+
+def test_every_doubt_says_what_to_do():
+    for missed in ({"m": 1e-9}, {"m": 1e9}, {"EI": 1e6}, {"x": 1e5}):
+        for EA in (1.0, None):
+            told = doubts(bar(**missed, EA=EA))
+            assert told
+            assert all("check the units of" in text for text in told)
+
+
+def test_point_masses_carry_a_beam_without_mass():
+    light = bar(m=1e-8)
+    assert doubts(light)
+    assert doubts(light.with_attachments(PointMass(1.2, 10.0))) == []
+
+
+def test_a_heavy_mass_does_not_slow_a_bar():
+    assert doubts(bar().with_attachments(PointMass(1.2, 1e8))) == []
+
+
+def test_a_rigid_piece_does_not_count():
+    mass, EI, EA = [10.0, 10.0, 10.0], [3e4, 3e12, 3e12], [2.6e8, 2.6e16, 2.6e16]
+    assert doubts(Beam.from_stations([0, 1, 1.2], mass, EI, EA, ends=CLAMPED)) == []
+
+
+def test_a_long_wire_in_tension_or_on_supports_is_not_doubted():
+    wire = {"d": 1e-3, "length": 30.0}
+    free = bar(**wire)
+    assert doubts(free)
+    pulled = Beam.from_stations([0, 30.0], 6e-3, 0.01, 1.6e5, -100.0, ends=CLAMPED)
+    assert doubts(pulled) == []
+    assert doubts(free.with_attachments(Spring(15.0, translational=1e5))) == []
+
+
+def test_more_stations_change_no_verdict():
+    x = np.linspace(0, 1200, 31)
+    one = bar(x=1e3, m=1e-6, EI=1e6)
+    columns = (one.mass_per_length, one.bending_stiffness, one.axial_stiffness)
+    many = Beam.from_stations(x, *(float(c[0, 0]) for c in columns), ends=CLAMPED)
+    assert doubts(many) == doubts(one)
+
+
+def test_doubts_come_with_the_modes():
+    told = solve_modes(bar(EI=1e6), 1).warnings
+    assert any("in N mm^2 gives" in text for text in told)
+    assert not any("check the units" in text for text in solve_modes(bar(), 1).warnings)

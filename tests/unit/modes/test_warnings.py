@@ -1,0 +1,40 @@
+"""What a first-order effect of shear beyond one half means: buckling in truth, or nothing."""
+
+import math
+
+import pytest
+
+from antinode import Beam, Ends, solve_modes
+from antinode.modes.warnings import SHEAR_BEYOND, SHEAR_BUCKLES
+
+LENGTH, EI = 2.0, 3e4
+STIFF = 5.2 * (math.pi / LENGTH) ** 2 * EI / 0.2  # EA for which k^2 EI / kGA is 0.2 in mode 1
+EULER = math.pi**2 * EI / LENGTH**2
+
+
+def told(share, ends=("pinned", "pinned"), unloaded=True, EA=STIFF, modes=1):
+    """Warnings of a strut under a share of its Euler load."""
+    N = None if share == 0 else share * EULER
+    strut = Beam.from_stations([0.0, LENGTH], 12.0, EI, EA, N, ends=Ends(*ends))
+    return solve_modes(strut, modes, families=["bending"], unloaded=unloaded).warnings
+
+
+@pytest.mark.parametrize("share", [0.8, 0.82, 0.84, 0.86, 0.9, 0.97])
+def test_a_strut_buckles_by_shear_at_engessers_load(share):
+    """With shear it buckles at P_E/(1 + k^2 EI/kGA) (Engesser), here 0.8333 P_E."""
+    assert any(text.endswith(SHEAR_BUCKLES) for text in told(share)) == (share > 1 / 1.2)
+
+
+def test_without_the_unloaded_beam_it_may_be():
+    for share in (0.82, 0.9):
+        assert any(text.endswith(SHEAR_BUCKLES) for text in told(share, unloaded=False))
+
+
+def test_a_short_beam_without_load_does_not_buckle():
+    said = told(0, ends=("free", "free"), modes=6)
+    assert any("bending 6" in text and text.endswith(SHEAR_BEYOND) for text in said)
+    assert not any("buckling" in text for text in said)
+
+
+def test_a_slender_strut_near_its_load_is_told_nothing_of_shear():
+    assert not any("buckling" in text for text in told(0.97, EA=1e3 * STIFF))
