@@ -71,6 +71,8 @@ def bent(shape: StaticShape, x: np.ndarray) -> dict[str, np.ndarray]:
 
 HEADINGS = ("x [m]", "N [kN]", "Q [kN]", "M [kN m]", "EI u'' [kN m]", "u_Y [mm]", "u_X [mm]")
 """Of the table of internal forces."""
+BRIEF_HEADINGS = ("x [m]", "N [kN]", "Q [kN]", "M [kNm]", "EI u''", "u_Y [mm]", "u_X [mm]")
+"""The same for a narrow terminal; EI u'' has the unit of M."""
 EXPLANATION = "M: of the loads on the straight body. EI u'': with N on the bent one. "
 """What the two moments are."""
 

@@ -233,12 +233,12 @@ def show_loads(out: Console, case: Case, shape: StaticShape) -> None:
     """Print forces, accelerations, checks and validity ranges of a case."""
     from antinode.vehicle.statics import FRAME
 
-    from .loads_table import EXPLANATION, loads_warnings
+    from .loads_table import BRIEF_HEADINGS, EXPLANATION, HEADINGS, loads_warnings
 
     show_condition(out, case)
     out.print(_forces_table(case))
-    tables = (_internal_table(case, shape, decimals) for decimals in (4, 2))
-    out.print(_fitting(tables, out))
+    choices = ((HEADINGS, 4), (HEADINGS, 2), (BRIEF_HEADINGS, 2))
+    out.print(_fitting((_internal_table(case, shape, *choice) for choice in choices), out))
     out.print(f"[dim]{EXPLANATION}{FRAME}[/dim]", highlight=False)
     out.print(_fitting((_validity_table(case, brief) for brief in (False, True)), out))
     show_warnings(out, loads_warnings(case, shape))
@@ -258,10 +258,12 @@ def _forces_table(case: Case) -> Table:
     return table
 
 
-def _internal_table(case: Case, shape: StaticShape, decimals: int) -> Table:
-    from .loads_table import HEADINGS, internal_rows
+def _internal_table(
+    case: Case, shape: StaticShape, headings: Iterable[str], decimals: int
+) -> Table:
+    from .loads_table import internal_rows
 
-    table = new_table(*HEADINGS, left=())
+    table = new_table(*headings, left=())
     for position, *forces in internal_rows(case, shape, 9).tolist():
         texts = (f"{round(force, decimals) + 0.0:.{decimals}f}" for force in forces)
         _row(table, f"{position:.3f}", *texts)
