@@ -57,7 +57,8 @@ KEYS = {
     "dynamic_viscosity", "vapour_pressure", "atmospheric_pressure", "model", "radius", "wall",
     "gravity_rise", "gravity_rise_length", "gravity_rise_factor", "distortion",
     "distortion_factor", "fin_immersion", "fin_lift", "planing", "planing_angle",
-    "planing_direction_width", "end_force",
+    "planing_direction_width", "end_force", "torsional_stiffness", "polar_inertia_per_length",
+    "left_torsion", "right_torsion", "torsional", "polar_inertia",
 }  # fmt: skip
 
 

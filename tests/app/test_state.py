@@ -157,7 +157,7 @@ def test_a_dropped_case_reads_no_file_that_was_not_dropped(tmp_path, name):
         ({}, "drop one TOML file"),
         ({"a.csv": b"x"}, "drop one TOML file"),
         ({"a.toml": b"", "b.toml": b""}, "drop one TOML file"),
-        ({"a.toml": b"\xff\xfe"}, "UTF-8"),
+        ({"a.toml": b"\xe9\xff"}, "UTF-8"),
         ({"a.toml": b"x = ["}, "not valid TOML"),
         ({"a.toml": b"x = 1"}, "unknown key"),
         ({"a.toml": b"[beam]\nstations = 3"}, "stations"),
