@@ -76,7 +76,7 @@ def test_the_mesh_is_near_the_beam(name, tmp_path):
     path = tmp_path / "deck.bdf"
     write_nastran(path, solved(name))
     rows = expected(path)
-    assert len(rows) == len(solved(name).modes)
+    assert len(rows) == sum(mode.family != "torsion" for mode in solved(name).modes)
     scale = min(abs(beam) for _, _, beam in rows if beam)
     for _, mesh, beam in rows:
         assert abs(mesh - beam) < 4e-4 * max(abs(beam), scale)
@@ -99,10 +99,11 @@ def test_a_deck_gives_the_beam_back(name, analysis, tmp_path):
     write_nastran(tmp_path / "deck.bdf", result, system, analysis)
     beam, notes = read_nastran(tmp_path / "deck.bdf", system)
     assert system.words in notes[0]
-    again = solve_modes(beam, 3, tolerance=1e-7)
+    in_plane = ["bending", "longitudinal"]
+    again = solve_modes(beam, 3, tolerance=1e-7, families=in_plane)
     weight = replace(result.beam, offset_weight=False)
     weight = weight.without_axial_force() if analysis == "unloaded" else weight
-    wanted = solve_modes(weight, 3, tolerance=1e-7)
+    wanted = solve_modes(weight, 3, tolerance=1e-7, families=in_plane)
     scale = wanted.mode("bending", 1).omega2
     for a, b in zip(again.modes, wanted.modes, strict=True):
         assert abs(a.omega2 - b.omega2) < 1e-4 * max(abs(b.omega2), scale), b.name

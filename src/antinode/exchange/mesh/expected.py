@@ -80,7 +80,7 @@ def expected_modes(result: ModalResult, mesh: Mesh, kind: Kind) -> Expected:
     """Return the frequencies to expect."""
     rows: list[tuple[Mode, float]] = []
     others: list[float] = []
-    for name in result.families:
+    for name in dict.fromkeys(mode.family for mode in result.modes):
         modes = sorted((m for m in result.modes if m.family == name), key=lambda m: m.omega2)
         found = _lowest(mesh, kind, name, modes, top=max(m.omega2 for m in result.modes))
         rows += zip(modes, found, strict=False)
