@@ -97,7 +97,7 @@ class Refinement:
 
 
 def layer_length(chain: Chain, varies: Array | None = None) -> float:
-    """Return the largest |N| h^2/EI of the segments; 0 in a family without axial force.
+    """Return the largest abs(N) h^2/EI of the segments; 0 in a family without axial force.
 
     `varies` says for each whether it stands for something that varies; others are exact.
     """

@@ -45,7 +45,7 @@ def extrapolate(
     coarse : float
         Relative width to a tenth of which the values of all rows but the last are known.
     layer : float
-        The largest |N| h^2/EI of the half-steps of the finest chain.
+        The largest abs(N) h^2/EI of the half-steps of the finest chain.
     better, error : array, shape (number,)
         Set.
     """

@@ -131,7 +131,7 @@ def _judged(levels: list[Array], layer: float) -> tuple[Array, Array]:
 
 
 def _layer(chains: Chains) -> float:
-    """Return the largest |N| h^2/EI of segments: layers of the axial force, in segments."""
+    """Return the largest abs(N) h^2/EI of segments: layers of the axial force, in segments."""
     return float(np.max(np.abs(chains.axial_force) * chains.length**2 / chains.stiffness))
 
 
