@@ -5,7 +5,7 @@ from __future__ import annotations
 from nicegui import ui
 
 from antinode.vehicle.case import Case
-from antinode.vehicle.cavitation import resolve_cavitation
+from antinode.vehicle.hydrodynamics.cavitation_number import resolve_cavitation
 
 from .display import number_text, shown_unit
 from .inputs import Input

@@ -1,4 +1,7 @@
-"""The beam file: a beam given by stations in TOML, checked and turned into a `Beam`."""
+"""The beam file: a beam given by stations in TOML, checked and turned into a `Beam`.
+
+`exchange.beam_toml` writes one.
+"""
 
 from __future__ import annotations
 

@@ -15,6 +15,8 @@ difference counts `LAYERED` times, that of the level before as well, and the lar
 for each, because layers shorten the beam for all of them alike (validation/all_ways.md). Where the
 coarsest of the three chains was so, the whole difference counts.
 
+`modes.refinement` halves the steps until it holds; the compiled form does so in `lanes.levels`.
+
 Numpy calls these functions as they stand, and `riccati.lanes` compiles them: plain loops on arrays.
 Any number that is solved on halved steps may be judged so: omega^2, or a critical load factor.
 """

@@ -237,6 +237,7 @@ _LATERAL_ENDS: Mapping[str, tuple[int, ...]] = {
     "pinned": (0,),
     "sliding": (1,),
 }
+"""Held of [Y, theta]; a force is zero where its displacement is free: pinned is Y = M = 0."""
 _SINGLE_ENDS: Mapping[str, tuple[int, ...]] = {"free": (), "fixed": (0,)}
 
 

@@ -16,8 +16,8 @@ import numpy as np
 
 from antinode.arrays import Array
 
-from .cavitation import Cavitation, Stream, cavitation
 from .hydrodynamics import cavitator, fins
+from .hydrodynamics.cavitation_number import Cavitation, Stream, cavitation
 from .hydrodynamics.cavity import Cavity, form_cavity
 from .hydrodynamics.planing import Planing, planing_state
 from .numbers import ManyCases

@@ -28,9 +28,9 @@ from antinode.arrays import Array
 from antinode.beam.mass import MassDistribution
 from antinode.errors import InputError
 
-from .cavitation import cavitation_of
 from .condition import OperatingCondition, Water
 from .forces import FinLoads, ForceOnBody, drag_ahead, forces_of
+from .hydrodynamics.cavitation_number import cavitation_of
 from .hydrodynamics.cavity import Cavity
 from .hydrodynamics.planing import Planing
 from .hydrodynamics.validity import Validity

@@ -9,8 +9,8 @@ from scipy.integrate import quad
 
 from antinode.beam.mass import MassDistribution
 from antinode.errors import InputError
-from antinode.vehicle.cavitation import resolve_cavitation
 from antinode.vehicle.condition import OperatingCondition, Water
+from antinode.vehicle.hydrodynamics.cavitation_number import resolve_cavitation
 from antinode.vehicle.options import Model
 from antinode.vehicle.vehicle import FinSet, Stations, Vehicle
 

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 Progress = Callable[[int, int], None]
 """Called with the number of cases that are done, and of all."""
 MOST_IN_MEMORY = 2_000_000
-MOSTTRACKED = 200_000
+MOST_TRACKED = 200_000
 
 
 def sweep(
@@ -97,9 +97,9 @@ def sweep(
 
 def check_size(points: Points, *, in_memory: bool) -> None:
     """Refuse what cannot be held or tracked, before any work is done."""
-    if points.tracked and points.cases > MOSTTRACKED:
+    if points.tracked and points.cases > MOST_TRACKED:
         raise InputError(
-            f"tracking.track: {points.cases} cases; at most {MOSTTRACKED} can be tracked"
+            f"tracking.track: {points.cases} cases; at most {MOST_TRACKED} can be tracked"
         )
     if points.tracked and points.study.design.kind not in ("grid", "zip"):
         raise InputError(

@@ -1,4 +1,4 @@
-"""Hydrodynamics of a supercavitating body: cavitator, cavity, fins, planing (eq. 2-17)."""
+"""Hydrodynamics of a supercavitating body: cavitator, cavity, fins, planing (eq. 1-17)."""
 
 from .cavitator import cavitator_forces
 from .cavity import Cavity, form_cavity

@@ -14,9 +14,8 @@ from typing import Generic, NamedTuple, TypeVar
 import numpy as np
 
 from antinode.arrays import Array
-
-from .condition import OperatingCondition, Water
-from .refusals import CAVITATION, Refusals
+from antinode.vehicle.condition import OperatingCondition, Water
+from antinode.vehicle.refusals import CAVITATION, Refusals
 
 _AGREEMENT = 1e-3  # of sigma q, within which sigma, depth and cavity pressure may disagree
 
