@@ -164,7 +164,7 @@ def _modes_of(
     omega2 = np.array([solved.eigenvalues[k].omega2 for k in keep])
     states = shapes(backend, beam, chain, solved.eigenvalues, keep, names)
     energies = backend.mode_energies(chain, states, omega2)
-    scale = normalising_factors(states, energies.mass, normalisation)
+    scale = normalising_factors(chain, states, omega2, energies.mass, normalisation)
     states = states * scale[:, None]
     at_grid = on_grid(chain, states, omega2, grid - grid[0])
     energies = energies.scaled(scale)
