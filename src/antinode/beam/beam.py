@@ -31,6 +31,7 @@ from .attachments import (
     PointMass,
     check_attachments,
     gather,
+    on_beam,
 )
 from .checks import LOGARITHMIC, TABLES, check, check_rows, check_stations, given
 from .ends import FREE, Ends
@@ -238,6 +239,7 @@ class Beam(ByValue):
 
     def with_attachments(self, *attachments: Attachment) -> Beam:
         """Return the beam with point masses, springs and joints added, and breakpoints for them."""
+        attachments = tuple(replace(item, x=on_beam(item.x, self.x)) for item in attachments)
         check_attachments(attachments, self.x)
         beam = self.with_breakpoints([item.x for item in attachments])
         return replace(beam, attachments=(*self.attachments, *attachments))
