@@ -15,6 +15,7 @@ from antinode.errors import InputError
 from antinode.riccati.points import Point
 
 from .families import FAMILIES, Family, FamilyName
+from .profile import ROUNDING
 
 APART = 1e-8
 """Least distance of two supports over the length of the beam; nearer ones hold nothing between."""
@@ -89,6 +90,14 @@ class Joint:
 
 
 Attachment = PointMass | Spring | Joint
+
+
+def on_beam(place: float, x: Array) -> float:
+    """Return the end of the beam where a place misses it by rounding, else the place itself [m]."""
+    for end in (float(x[0]), float(x[-1])):
+        if abs(place - end) <= ROUNDING * max(abs(x[0]), abs(x[-1])):
+            return end
+    return place
 
 
 def check_attachments(attachments: Sequence[Attachment], x: Array) -> None:

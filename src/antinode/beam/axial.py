@@ -15,7 +15,7 @@ import numpy as np
 from antinode.arrays import Array, Integers
 from antinode.errors import InputError
 
-from .attachments import Spring
+from .attachments import Spring, on_beam
 from .beam import Beam
 from .families import LONGITUDINAL
 
@@ -63,6 +63,8 @@ def apply_loads(beam: Beam, loads: AxialLoads) -> Beam:
         If a force lies off the beam, EA is needed and missing, or an acceleration is given for a
         beam that nothing holds axially.
     """
+    forces = tuple(replace(f, x=on_beam(f.x, beam.x)) for f in loads.point_forces)
+    loads = replace(loads, point_forces=forces)
     for force in loads.point_forces:
         if not beam.x[0] <= force.x <= beam.x[-1]:
             raise InputError(

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from antinode.arguments import ByValue, numbers, owned
 from antinode.arrays import Array, Integers, Interpolation
 from antinode.errors import InputError
 from antinode.riccati.chain import Chain
@@ -30,8 +31,9 @@ from .attachments import (
     PointMass,
     check_attachments,
     gather,
+    on_beam,
 )
-from .checks import LOGARITHMIC, TABLES, check, given
+from .checks import LOGARITHMIC, TABLES, check, check_rows, check_stations, given
 from .ends import FREE, Ends
 from .families import FAMILIES, FamilyName, tells
 from .mass import MassDistribution, mass_within
@@ -39,8 +41,8 @@ from .profile import interpolated
 from .representation import GAUSS, coarsest_steps, copies, halved
 
 
-@dataclass(frozen=True)
-class Beam:
+@dataclass(frozen=True, eq=False)
+class Beam(ByValue):
     """A straight non-uniform Euler-Bernoulli beam under static axial force.
 
     Parameters
@@ -75,8 +77,12 @@ class Beam:
     Raises
     ------
     InputError
-        If shapes disagree, breakpoints do not increase, a property is not positive and finite, or
-        an attachment is not at a breakpoint.
+        If shapes disagree, breakpoints do not increase, a property is not positive and finite, an
+        attachment is not at a breakpoint, a value is masked, or a word is not one of those allowed.
+
+    Notes
+    -----
+    Immutable: it owns its arrays, compares by value, and has a hash.
     """
 
     x: Array
@@ -95,12 +101,13 @@ class Beam:
     name: str = "beam"
 
     def __post_init__(self) -> None:
-        if not len(self.axial_force):
-            object.__setattr__(self, "axial_force", np.zeros((len(self.x) - 1, 2)))
-        for name in ("x", *TABLES):
+        object.__setattr__(self, "x", owned("x", self.x))
+        if not np.size(self.axial_force):
+            object.__setattr__(self, "axial_force", np.zeros((max(len(self.x) - 1, 0), 2)))
+        for name in TABLES:
             values = getattr(self, name)
             if values is not None:
-                object.__setattr__(self, name, _own(values))
+                object.__setattr__(self, name, owned(name, values))
         check(self)
 
     @classmethod
@@ -134,17 +141,19 @@ class Beam:
         ends : Ends
         name : str
         """
-        stations = np.asarray(x, dtype=float)
+        stations = np.atleast_1d(numbers("x", x))
+        check_stations(stations)
         intervals = len(stations) - 1
         kept = (np.diff(stations) != 0) | (interpolation == "step")
 
-        def between(values: npt.ArrayLike | None) -> Array | None:
+        def between(name: str, values: npt.ArrayLike | None) -> Array | None:
             """Return values at both ends of every interval, shape (n, 2)."""
             if values is None:
                 return None
-            column = np.asarray(values, dtype=float)
+            column = numbers(name, values)
             if column.ndim == 0:
                 column = np.full(len(stations), column)
+            check_rows(name, column, len(stations), interpolation)
             table = np.empty((intervals, 2))
             right = column[:intervals] if interpolation == "step" else column[1:]
             table[:, 0], table[:, 1] = column[:intervals], right
@@ -152,21 +161,22 @@ class Beam:
             own.flags.writeable = False
             return own
 
-        m, EI = between(mass_per_length), between(bending_stiffness)
-        assert m is not None
-        assert EI is not None
-        N = between(axial_force)
+        m = between("mass_per_length", mass_per_length)
+        EI = between("bending_stiffness", bending_stiffness)
+        if m is None or EI is None:
+            raise InputError("mass_per_length and bending_stiffness are needed at every station")
+        N = between("axial_force", axial_force)
         return cls(
             np.append(stations[:-1][kept], stations[-1:]),
             m,
             EI,
-            between(axial_stiffness),
+            between("axial_stiffness", axial_stiffness),
             N if N is not None else np.zeros(0),
             interpolation=interpolation,
             ends=ends or Ends(),
-            radius_of_gyration=between(radius_of_gyration),
-            torsional_stiffness=between(torsional_stiffness),
-            polar_inertia_per_length=between(polar_inertia_per_length),
+            radius_of_gyration=between("radius_of_gyration", radius_of_gyration),
+            torsional_stiffness=between("torsional_stiffness", torsional_stiffness),
+            polar_inertia_per_length=between("polar_inertia_per_length", polar_inertia_per_length),
             name=name,
         )
 
@@ -229,6 +239,7 @@ class Beam:
 
     def with_attachments(self, *attachments: Attachment) -> Beam:
         """Return the beam with point masses, springs and joints added, and breakpoints for them."""
+        attachments = tuple(replace(item, x=on_beam(item.x, self.x)) for item in attachments)
         check_attachments(attachments, self.x)
         beam = self.with_breakpoints([item.x for item in attachments])
         return replace(beam, attachments=(*self.attachments, *attachments))
@@ -427,14 +438,3 @@ class Beam:
 
 
 _SLOPE = np.array([0.0, 1.0])
-
-
-def _own(values: npt.ArrayLike) -> Array:
-    """Return a read-only array that nobody else can write to."""
-    if isinstance(values, np.ndarray) and values.dtype == np.float64:
-        kept: Array = values
-        if kept.base is None and not kept.flags.writeable:
-            return kept
-    own = np.array(values, dtype=float)
-    own.flags.writeable = False
-    return own

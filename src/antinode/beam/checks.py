@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arguments import choice
+from antinode.arrays import Array, Interpolation
 from antinode.errors import InputError
+from antinode.text import counted
 
 from .attachments import check_attachments, check_supports_apart, held_places
 from .families import FAMILIES, FamilyName
@@ -19,8 +21,8 @@ if TYPE_CHECKING:
 def check(beam: Beam) -> None:
     """Raise InputError unless shapes agree, x rises, and every property is in its range."""
     n = len(beam.x) - 1
-    if n < 1:
-        raise InputError(f"a beam needs at least two breakpoints x; received {n + 1}")
+    check_stations(beam.x)
+    choice("interpolation", beam.interpolation, Interpolation)
     if not np.isfinite(beam.x).all():
         raise InputError("x: every breakpoint must be a finite number [m]")
     rises = beam.x[1:] > beam.x[:-1]
@@ -43,6 +45,25 @@ def check(beam: Beam) -> None:
                 f"no breakpoint at x = {item.x:g} m, where something is attached; "
                 "use Beam.with_attachments"
             )
+
+
+def check_stations(x: Array) -> None:
+    """Raise InputError unless x is a column of at least two places."""
+    if x.ndim != 1 or len(x) < 2:
+        received = counted(len(x), "place") if x.ndim == 1 else f"an array of shape {x.shape}"
+        raise InputError(f"a beam needs at least two breakpoints x; received {received}")
+
+
+def check_rows(name: str, column: Array, rows: int, interpolation: Interpolation) -> None:
+    """Raise InputError unless a column has a value for each station, or step, of a table."""
+    choice("interpolation", interpolation, Interpolation)
+    allowed = (rows, rows - 1) if interpolation == "step" else (rows,)
+    if column.ndim != 1 or len(column) not in allowed:
+        wanted = " or ".join(f"({number},)" for number in allowed)
+        raise InputError(
+            f"{name} has shape {column.shape}, but x has {counted(rows, 'station')}: give one "
+            f"value for each, shape {wanted}, or a single number"
+        )
 
 
 def _check_complete(beam: Beam) -> None:

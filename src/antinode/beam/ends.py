@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal
+
+from antinode.arguments import choice
 
 from .families import FAMILIES, FamilyName
 
@@ -27,6 +29,11 @@ class Ends:
         Default: fixed for clamped and pinned ends, else free.
     left_torsion, right_torsion : {"free", "fixed"}, optional
         Default: fixed for clamped ends, else free.
+
+    Raises
+    ------
+    InputError
+        If a word is not one of these.
     """
 
     left: End = "free"
@@ -35,6 +42,12 @@ class Ends:
     right_axial: AxialEnd | None = None
     left_torsion: TorsionEnd | None = None
     right_torsion: TorsionEnd | None = None
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value, sideways = getattr(self, field.name), field.name in ("left", "right")
+            if sideways or value is not None:
+                choice(f"the end {field.name}", value, End if sideways else AxialEnd)
 
     def of(self, name: FamilyName) -> tuple[str, str]:
         """Return the two ends as the solver names them for a family of modes."""

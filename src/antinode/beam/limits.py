@@ -28,8 +28,10 @@ MOST_POINT_MASS = 1e15
 """Largest point mass over the mass of the beam without them."""
 MOST_BUCKLED = 12.0
 """Modes that the compression may make diverge, about."""
-MOST_TENSION = 1e7
-"""Largest tension times length squared over bending stiffness."""
+MOST_TENSION = 9e7
+"""Largest square of the integral of sqrt(tension/EI): tension length^2 over bending stiffness."""
+SAMPLES = (np.arange(32) + 0.5) / 32
+"""Where intervals are sampled for both, as shares of their lengths."""
 
 
 @contextmanager
@@ -88,26 +90,41 @@ def _check_property(name: str, values: Array) -> None:
         )
 
 
+def waves(N: Array, EI: Array, length: Array) -> tuple[Array, Array]:
+    """Return about how many modes diverge, and tension times length squared over stiffness.
+
+    Where N is in compression, sqrt(N/EI) is the wave number at omega^2 = 0: its integral over pi is
+    the number of half waves. In tension it is the inverse length of the layers at the ends.
+
+    Parameters
+    ----------
+    N, EI : array, shape (..., n, samples)
+        At `SAMPLES` of n intervals [N, N m^2].
+    length : array, shape (n,)
+        Of the intervals [m].
+    """
+    buckled, pulled = (
+        np.sum(np.mean(np.sqrt(np.maximum(force, 0.0) / EI), axis=-1) * length, axis=-1)
+        for force in (N, -N)
+    )
+    return buckled / np.pi, pulled**2
+
+
 def _check_axial_force(beam: Beam) -> None:
     """Refuse a force that is out of all proportion to the bending stiffness."""
-    intervals = np.arange(len(beam.x) - 1)
-    at_ends = [beam.axial_force_at(intervals, np.full(len(intervals), t)) for t in (0.0, 1.0)]
-    most, least = np.max(at_ends, axis=0), np.min(at_ends, axis=0)
-
-    def waves(force: Array) -> float:
-        EI = np.min(beam.bending_stiffness, axis=1)
-        return float(np.sum(np.sqrt(np.maximum(force, 0) / EI) * np.diff(beam.x)))
-
-    buckled, tension = waves(most) / np.pi, waves(-least) ** 2
+    interval, fraction = np.arange(len(beam.x) - 1)[:, None], SAMPLES[None]
+    N = beam.axial_force_at(interval, fraction)
+    EI = beam.at(beam.bending_stiffness, interval, fraction)
+    buckled, tension = (float(v) for v in waves(N, EI, np.diff(beam.x)))
     if not buckled <= MOST_BUCKLED:
         raise InputError(
-            f"the axial force of up to {np.max(most):g} N would make about {buckled:.0f} modes "
+            f"the axial force of up to {np.max(N):.3g} N would make about {buckled:.0f} modes "
             f"diverge; at most {MOST_BUCKLED:g} are computed: check the units of axial force and "
             "bending_stiffness"
         )
     if not tension <= MOST_TENSION:
         raise InputError(
-            f"the tension of up to {-np.min(least):g} N is {tension:.3g} times bending_stiffness "
-            f"over length squared; at most {MOST_TENSION:g} is computed: check their units (this "
-            "beam is a string)"
+            f"the tension of up to {-np.min(N):.3g} N is about {tension:.2g} times "
+            f"bending_stiffness over length squared; at most {MOST_TENSION:g} is computed: check "
+            "their units (this beam is a string)"
         )

@@ -12,6 +12,7 @@ from antinode.inputs.columns import Column, finite, increasing
 from antinode.inputs.units import Frozen
 
 from .mass import MassDistribution
+from .profile import ROUNDING
 
 
 class MassTable(Frozen):
@@ -51,7 +52,8 @@ class MassTable(Frozen):
 def check_on_body(masses: tuple[MassTable, ...], start: float, end: float, how: str) -> None:
     """Raise ValueError unless every part lies on the body and can be added to its table."""
     for part in masses:
-        if part.x[0] < start or part.x[-1] > end:
+        slack = ROUNDING * max(abs(start), abs(end))
+        if part.x[0] < start - slack or part.x[-1] > end + slack:
             raise ValueError(
                 f"the part '{part.name}' runs from {part.x[0]:g} to {part.x[-1]:g} m, but the body "
                 f"from {start:g} to {end:g} m: correct its x"

@@ -14,6 +14,9 @@ from numpy.typing import ArrayLike
 
 from antinode.arrays import Array, Integers, Interpolation
 
+ROUNDING = 1e-12
+"""Of the largest |x|, by which a place may miss an end of the beam: "3 ft" is not quite "36 in"."""
+
 
 def interpolated(a: Any, b: Any, fraction: Any, how: Interpolation) -> Any:
     """Return what a property is at fractions 0 ... 1 between its values `a` and `b`."""

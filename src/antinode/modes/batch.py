@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from antinode.arguments import ByValue, owned, whole
 from antinode.arrays import Array, Integers
 from antinode.beam.ends import FREE, Ends
 from antinode.errors import InputError
@@ -53,8 +54,8 @@ _ROUNDING = 64 * np.finfo(float).eps
 _ALONE = NOT_BRACKETED, CLUSTERED, BY_ITSELF
 
 
-@dataclass(frozen=True)
-class BeamBatch:
+@dataclass(frozen=True, eq=False)
+class BeamBatch(ByValue):
     """Beams of as many uniform segments each, one a row.
 
     Parameters
@@ -73,7 +74,13 @@ class BeamBatch:
     Raises
     ------
     InputError
-        If the shapes do not go together. Values are checked beam by beam when they are solved.
+        If the shapes do not go together, or a value is masked. Values are checked beam by beam
+        when they are solved.
+
+    Notes
+    -----
+    Immutable: it owns its arrays, which are copied unless they are read-only, compares by value,
+    and has a hash.
     """
 
     length: Array
@@ -85,16 +92,15 @@ class BeamBatch:
     _one_structure: bool = field(default=False, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        if not 1 <= self.modes <= 500:
-            raise InputError(f"modes is {self.modes}; allowed are 1 ... 500")
-        tables = [np.asarray(getattr(self, name), dtype=float) for name in _ARRAYS]
+        object.__setattr__(self, "modes", whole("modes", self.modes, 500))
+        tables = [owned(name, getattr(self, name)) for name in _ARRAYS]
         rows, n = _common_shape(tables)
         object.__setattr__(self, "_one_structure", all(_rows(v) == 1 for v in tables[:3]))
         for name, values in zip(_ARRAYS, tables, strict=True):
             shape = (_rows(values) if name == "length" else rows, n)
             if values.shape != shape:
-                whole = values.size == shape[0] * n
-                values = values.reshape(shape) if whole else np.broadcast_to(values, shape)
+                same = values.size == shape[0] * n
+                values = values.reshape(shape) if same else np.broadcast_to(values, shape)
             kept = np.ascontiguousarray(values).view()
             kept.flags.writeable = False
             object.__setattr__(self, name, kept)
@@ -124,8 +130,8 @@ def _common_shape(tables: list[Array]) -> tuple[int, int]:
 _ARRAYS = ("length", "mass_per_length", "bending_stiffness", "axial_force")
 
 
-@dataclass(frozen=True)
-class BatchResult:
+@dataclass(frozen=True, eq=False)
+class BatchResult(ByValue):
     """Elastic bending modes of every beam of a batch, each with its certificate.
 
     Attributes

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from antinode.arguments import ByValue, whole, within
 from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.beam.representation import LIMITS
-from antinode.errors import InputError
 from antinode.riccati.chains import Tables
 from antinode.riccati.points import Point
 from antinode.riccati.reasons import CERTIFIED
@@ -35,8 +35,8 @@ _MODES_PER_REFINEMENT = 8  # that the coarsest steps are meant for
 _NOT_READ = np.zeros(0)
 
 
-@dataclass(frozen=True)
-class Frequencies:
+@dataclass(frozen=True, eq=False)
+class Frequencies(ByValue):
     """Elastic bending modes 1 ... n of one beam, each with its certificate.
 
     Attributes
@@ -103,10 +103,8 @@ def natural_frequencies(
     ComputationError
         If the eigenvalues could not be bracketed.
     """
-    if not 1 <= modes <= 500:
-        raise InputError(f"modes is {modes}; allowed are 1 ... 500")
-    if not 1e-12 <= tolerance <= 0.1:
-        raise InputError(f"tolerance is {tolerance:g}; allowed are 1e-12 ... 0.1 (relative)")
+    modes = whole("modes", modes, 500)
+    tolerance = within("tolerance", tolerance, 1e-12, 0.1, " (relative)")
     beam = problem if isinstance(problem, Beam) else _beam_of(problem)
     found = _directly(choose(backend), beam, modes, tolerance)
     return found or _by_modes(beam, modes, tolerance, backend)

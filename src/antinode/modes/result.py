@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from antinode.arguments import ByValue, choice, numbers
 from antinode.arrays import Array
 from antinode.beam.attachments import attachment_dict
 from antinode.beam.beam import Beam
@@ -38,8 +39,8 @@ NOT_MODELLED = (
 """What the model leaves out, always."""
 
 
-@dataclass(frozen=True)
-class Mode:
+@dataclass(frozen=True, eq=False)
+class Mode(ByValue):
     """One natural mode with its certificate.
 
     Attributes
@@ -128,7 +129,7 @@ class Mode:
         return np.asarray(self.states[:, 0])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Solution:
     """The modes of one family along the chain that was solved: exact between its nodes.
 
@@ -154,8 +155,8 @@ class Solution:
         return propagate(self.chain, start, self.omega2, x - nodes[segment], segment)
 
 
-@dataclass(frozen=True)
-class ModalResult:
+@dataclass(frozen=True, eq=False)
+class ModalResult(ByValue):
     """The modes of a beam, in order of family and omega^2.
 
     Attributes
@@ -181,7 +182,7 @@ class ModalResult:
     tolerance: float
     normalisation: Normalisation
     segments: dict[str, int]
-    solutions: dict[FamilyName, Solution] = field(repr=False)
+    solutions: dict[FamilyName, Solution] = field(repr=False, compare=False)
     warnings: tuple[str, ...]
 
     def __str__(self) -> str:
@@ -201,7 +202,8 @@ class ModalResult:
         return tuple(self.solutions)
 
     def family(self, family: FamilyName) -> tuple[Mode, ...]:
-        """Return the modes of one family."""
+        """Return the modes of one family; none if it was not solved."""
+        choice("the family", family, FamilyName)
         return tuple(mode for mode in self.modes if mode.family == family)
 
     def mode(self, family: FamilyName, number: int) -> Mode:
@@ -226,7 +228,8 @@ class ModalResult:
         array, shape (points, modes, 4) or (points, modes, 2)
             The components of `FAMILIES` for every mode of the family, exact for the chain.
         """
-        points = np.atleast_1d(np.asarray(x, dtype=float)) - self.beam.x[0]
+        self._check_solved(family)
+        points = np.atleast_1d(numbers("x", x)) - self.beam.x[0]
         if np.any((points < 0) | (points > self.beam.length * (1 + 1e-12))):
             low, high = self.beam.x[0], self.beam.x[-1]
             raise InputError(f"x must lie on the beam, from {low:g} to {high:g} m")
@@ -234,7 +237,13 @@ class ModalResult:
 
     def frequencies_hz(self, family: FamilyName = BENDING) -> Array:
         """Return the frequencies of modes 1, 2, ... of a family [Hz], NaN where divergent."""
+        self._check_solved(family)
         return np.array([m.frequency_hz for m in self.family(family) if m.number])
+
+    def _check_solved(self, family: str) -> None:
+        if family not in self.solutions:
+            have = ", ".join(map(repr, self.solutions))
+            raise InputError(f"there are no {family} modes in this result; it has {have}")
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers for JSON, without the shapes."""

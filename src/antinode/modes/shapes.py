@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES
 from antinode.riccati.chain import Chain
@@ -61,7 +61,7 @@ def shapes(
 def on_grid(chain: Chain, states: Array, omega2: Array, grid: Array) -> Array:
     """Return the states at grid positions; a doubled position has its left side first."""
     nodes = chain.nodes
-    node = np.clip(np.searchsorted(nodes, grid - 1e-9 * nodes[-1]), 0, len(nodes) - 1)
+    node = np.searchsorted((nodes[1:] + nodes[:-1]) / 2, grid)  # the nearest one
     values = states[node].copy()
     left = np.flatnonzero(np.diff(grid, append=np.inf) == 0.0)
     if len(left):
@@ -70,10 +70,98 @@ def on_grid(chain: Chain, states: Array, omega2: Array, grid: Array) -> Array:
     return np.asarray(values)
 
 
-def normalising_factors(states: Array, mass: Array, normalisation: Normalisation) -> Array:
+def largest_displacements(chain: Chain, states: Array, omega2: Array) -> Array:
+    """Return the largest displacement anywhere, at nodes or between them, shape (modes,).
+
+    Cubics through displacements and slopes of nodes tell where the highest peaks are; exact
+    states there, at places that secants of the slope improve, tell their height.
+    """
+    ends = _left_sides(chain, states, omega2)
+    largest = np.maximum(*(np.max(np.abs(z[..., 0]), axis=0) for z in (states, ends)))
+    if not np.isfinite(states).all():
+        return np.asarray(largest)
+    place, height = _cubic_peaks(chain, states[:-1], ends)
+    most = min(_PEAKS, len(height))
+    highest = np.argpartition(-height, most - 1, axis=0)[:most]
+    for first in range(0, len(omega2), _TOGETHER):
+        some = np.arange(first, min(first + _TOGETHER, len(omega2)))
+        segment, column = highest[:, some].ravel(), np.tile(np.arange(len(some)), most)
+        peaks = _Peaks(chain, states[segment][:, some], omega2[some], segment, column)
+        found = peaks.heights(place[segment, some[column]]).reshape(most, -1)
+        largest[some] = np.maximum(largest[some], np.max(found, axis=0))
+    return np.asarray(largest)
+
+
+_PEAKS = 4  # of a mode whose height is computed: the cubics tell them apart
+_TOGETHER = 16  # modes
+
+
+def _left_sides(chain: Chain, states: Array, omega2: Array) -> Array:
+    """Return the states at the right ends of segments: before what sits at the node there."""
+    ends = states[1:].copy()
+    before = np.array([p.node - 1 for p in chain.points if p.node > 0], dtype=np.int64)
+    if len(before):
+        ends[before] = propagate(chain, states[before], omega2, chain.length[before], before)
+    return ends
+
+
+def _cubic_peaks(chain: Chain, start: Array, end: Array) -> tuple[Array, Array]:
+    """Return where, as a share of each segment, a displacement peaks, and about how high.
+
+    The height is 0 where the slope keeps its sign.
+    """
+    h, K = chain.length[:, None], chain.stiffness[:, None]
+    Y, s, t = start[..., 0], chain.law.slope(K, start) * h, chain.law.slope(K, end) * h
+    rise = end[..., 0] - Y
+    b, a = 3 * rise - 2 * s - t, s + t - 2 * rise  # Y + s x + b x^2 + a x^3
+    turns = s * t < 0
+    with np.errstate(all="ignore"):
+        root = np.sqrt(np.maximum(b * b - 3 * a * s, 0.0))
+        x = -s / (b + np.copysign(root, b))
+        other = -(b + np.copysign(root, b)) / (3 * a)
+        x = np.where((x > 0) & (x < 1), x, other)
+    x = np.where(turns & (x > 0) & (x < 1), x, 0.0)
+    return x, np.where(turns, np.abs(Y + x * (s + x * (b + x * a))), 0.0)
+
+
+class _Peaks(NamedTuple):
+    """Peaks of modes between nodes: in a segment each, of a column of the states."""
+
+    chain: Chain
+    start: Array
+    """States at the left ends of the segments, shape (peaks, modes, s)."""
+    omega2: Array
+    segment: Integers
+    column: Integers
+
+    def heights(self, place: Array) -> Array:
+        """Return abs(displacement) at its peaks, near places given as shares of the segments."""
+        h, K = self.chain.length[self.segment], self.chain.stiffness[self.segment]
+        height = np.zeros(len(place))
+        steps = [np.zeros(len(place)), place]
+        slopes = [self.chain.law.slope(K, self._at(steps[0]))]
+        for _ in range(3):
+            z = self._at(steps[-1] * h)
+            height = np.maximum(height, np.abs(z[:, 0]))
+            slopes.append(self.chain.law.slope(K, z))
+            change = slopes[-1] - slopes[-2]
+            safe = np.where(change == 0, 1.0, change)
+            secant = steps[-1] - slopes[-1] * (steps[-1] - steps[-2]) / safe
+            steps.append(np.where(change == 0, steps[-1], np.clip(secant, 0.0, 1.0)))
+        return height
+
+    def _at(self, distance: Array) -> Array:
+        """Return the state of each peak's own mode at a distance into its segment, (peaks, s)."""
+        z = propagate(self.chain, self.start, self.omega2, distance, self.segment)
+        return np.asarray(z[np.arange(len(self.column)), self.column])
+
+
+def normalising_factors(
+    chain: Chain, states: Array, omega2: Array, mass: Array, normalisation: Normalisation
+) -> Array:
     """Return the factor for each mode: size as asked, first extremum from the nose positive."""
     displacement = states[..., 0]
-    largest = np.max(np.abs(displacement), axis=0)
+    largest = largest_displacements(chain, states, omega2)
     sign = _first_extremum_signs(displacement, largest)
     return np.asarray(sign / (np.sqrt(mass) if normalisation == "mass" else largest))
 

@@ -15,6 +15,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from antinode.arguments import choice, whole, within
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES, FamilyName
@@ -84,13 +85,12 @@ def solve_modes(
     ComputationError
         If the eigenvalues could not be bracketed.
     """
-    if not 1 <= modes <= 500:
-        raise InputError(f"modes is {modes}; allowed are 1 ... 500 for each family")
-    if not 1e-12 <= tolerance <= 0.1:
-        raise InputError(f"tolerance is {tolerance:g}; allowed are 1e-12 ... 0.1 (relative)")
+    modes = whole("modes", modes, 500, " for each family")
+    tolerance = within("tolerance", tolerance, 1e-12, 0.1, " (relative)")
+    choice("normalisation", normalisation, Normalisation)
     solver = solver_of(method, choose(backend))
     beam = problem if isinstance(problem, Beam) else problem.beam()
-    chosen = tuple(families or beam.families)
+    chosen = beam.families if families is None else _chosen(families)
     grid = output_grid(beam, modes)
     found: list[Mode] = []
     segments: dict[str, int] = {}
@@ -134,6 +134,16 @@ def solve_one(problem: Beam | HasBeam, modes: int = 6, **settings: Any) -> Modal
     return solve_modes(beam, modes, backend=for_one(segments, modes), **settings)
 
 
+def _chosen(families: Sequence[FamilyName]) -> tuple[FamilyName, ...]:
+    """Return the families asked for, each once; one may stand by itself."""
+    names: list[Any] = [families] if isinstance(families, str) else list(dict.fromkeys(families))
+    if not names:
+        raise InputError("families is empty; name at least one, or leave it out for all")
+    for name in names:
+        choice("a family of modes", name, FamilyName)
+    return tuple(names)
+
+
 def _modes_of(
     backend: Backend,
     beam: Beam,
@@ -154,7 +164,7 @@ def _modes_of(
     omega2 = np.array([solved.eigenvalues[k].omega2 for k in keep])
     states = shapes(backend, beam, chain, solved.eigenvalues, keep, names)
     energies = backend.mode_energies(chain, states, omega2)
-    scale = normalising_factors(states, energies.mass, normalisation)
+    scale = normalising_factors(chain, states, omega2, energies.mass, normalisation)
     states = states * scale[:, None]
     at_grid = on_grid(chain, states, omega2, grid - grid[0])
     energies = energies.scaled(scale)

@@ -95,14 +95,23 @@ class Chain:
         return self._with_segments(length, lambda values: np.repeat(values, pieces), first)
 
     def cut_at(self, positions: Array) -> Chain:
-        """Return the same chain with a joint at each of the positions [m] as well."""
+        """Return the same chain with a joint at each of the positions [m] as well.
+
+        Segments that are not cut keep their length to the last bit, however thin they are.
+        """
         nodes = self.nodes
         after = np.searchsorted(nodes, positions).clip(1, len(nodes) - 1)
         gap = np.minimum(np.abs(nodes[after] - positions), np.abs(positions - nodes[after - 1]))
-        cuts = np.sort(np.concatenate([nodes, positions[gap > 1e-12 * nodes[-1]]]))
-        owner = np.clip(np.searchsorted(nodes, (cuts[1:] + cuts[:-1]) / 2) - 1, 0, len(nodes) - 2)
-        places = np.searchsorted(cuts, nodes - 1e-13 * nodes[-1])
-        return self._with_segments(np.diff(cuts), lambda values: values[owner], places)
+        new = gap > 1e-12 * nodes[-1]
+        segments = np.arange(len(self.length))
+        owner = np.concatenate([segments, after[new] - 1])
+        start = np.concatenate([np.zeros(len(segments)), positions[new] - nodes[after[new] - 1]])
+        order = np.lexsort((start, owner))
+        owner, start = owner[order], start[order]
+        last = np.diff(owner, append=len(segments)) > 0
+        end = np.where(last, self.length[owner], np.append(start[1:], 0.0))
+        places = np.searchsorted(owner, np.arange(len(nodes)))
+        return self._with_segments(end - start, lambda values: values[owner], places)
 
     def _with_segments(
         self, length: Array, column: Callable[[Array], Array], places: Integers

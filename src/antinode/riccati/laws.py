@@ -219,6 +219,10 @@ class Law(ABC):
         """Return the step of a point's joint in SI, shape (lanes, s, s)."""
 
     @abstractmethod
+    def slope(self, stiffness: Array, z: Array) -> Array:
+        """Return the derivative of the displacement along the axis, shape z.shape[:-1]."""
+
+    @abstractmethod
     def squares(self, columns: Columns, z: Array) -> Array:
         """Return what `Squares` integrates, of states (n, k, s), shape (4, n, k)."""
 
@@ -325,6 +329,10 @@ class Bending(Law):
         """Return the jump of theta."""
         return lateral_joint(point, lanes)
 
+    def slope(self, stiffness: Array, z: Array) -> Array:
+        """Return theta."""
+        return np.asarray(z[..., 1])
+
     def squares(self, columns: Columns, z: Array) -> Array:
         """Return Y^2, theta^2, M^2 and M'^2."""
         Y, theta, M, Q = np.moveaxis(z, -1, 0)
@@ -403,6 +411,10 @@ class Wave(Law):
     def joint(self, point: Point, lanes: int) -> Array:
         """Return the jump of u."""
         return wave_joint(point, lanes, self.sign)
+
+    def slope(self, stiffness: Array, z: Array) -> Array:
+        """Return u' = s F / K."""
+        return np.asarray(self.sign * z[..., 1] / stiffness)
 
     def squares(self, columns: Columns, z: Array) -> Array:
         """Return u^2 and F^2, and zeros where bending has slope and shear."""

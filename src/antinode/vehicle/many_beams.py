@@ -17,7 +17,7 @@ import numpy.typing as npt
 from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
-from antinode.beam.limits import MOST_BUCKLED, MOST_TENSION
+from antinode.beam.limits import MOST_BUCKLED, MOST_TENSION, SAMPLES, waves
 from antinode.beam.mass import mass_within
 from antinode.beam.profile import Profile, interpolated
 from antinode.beam.representation import GAUSS, coarsest_steps, halved
@@ -178,11 +178,10 @@ class ManyBeams:
         middle = (edges[1:] + edges[:-1])[None] / 2
         interval = np.broadcast_to(np.arange(len(edges) - 1), (len(rows), len(edges) - 1))
         jump = self._jumps(rows, np.repeat(middle, len(rows), axis=0))
-        at = np.broadcast_to(np.stack([edges[:-1], edges[1:]], axis=1), (*interval.shape, 2))
+        places = edges[:-1, None] + np.diff(edges)[:, None] * SAMPLES
+        at = np.broadcast_to(places, (*interval.shape, len(SAMPLES)))
         _, EI, N = self._at(rows, interval, at, jump)
-        wave = np.sqrt(np.maximum(N.max(axis=-1), 0) / EI.min(axis=-1)) * np.diff(edges)
-        pull = np.sqrt(np.maximum(-N.min(axis=-1), 0) / EI.min(axis=-1)) * np.diff(edges)
-        buckled, tension = wave.sum(axis=1) / np.pi, pull.sum(axis=1) ** 2
+        buckled, tension = waves(N, EI, np.diff(edges))
         return np.asarray(~((buckled <= MOST_BUCKLED) & (tension <= MOST_TENSION)))
 
 

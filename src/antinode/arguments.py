@@ -1,0 +1,132 @@
+"""What Python callers pass: choices by name, whole numbers, arrays; values that compare."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import fields
+from operator import index
+from typing import Any, ClassVar, get_args
+
+import numpy as np
+
+from .arrays import Array
+from .errors import InputError
+from .text import short
+
+
+def choice(name: str, value: object, literal: Any) -> None:
+    """Raise InputError unless an argument is one of the words of a `Literal`."""
+    allowed = get_args(literal)
+    if not (isinstance(value, str) and value in allowed):
+        words = ", ".join(map(repr, allowed))
+        raise InputError(f"{name} is {short(value)}; allowed are {words}")
+
+
+def whole(name: str, value: object, most: int, what: str = "") -> int:
+    """Return an argument that counts, 1 ... `most`, as a plain int.
+
+    Raises
+    ------
+    InputError
+        If it is no whole number (2.5, but also 3.0, as everywhere in Python), or out of range.
+    """
+    try:
+        number = index(value)  # type: ignore[arg-type]
+    except TypeError as error:
+        raise InputError(
+            f"{name} is {short(value)}; a whole number (int) 1 ... {most} is allowed{what}"
+        ) from error
+    if not 1 <= number <= most:
+        raise InputError(f"{name} is {short(number)}; allowed are 1 ... {most}{what}")
+    return number
+
+
+def within(name: str, value: object, low: float, high: float, what: str = "") -> float:
+    """Return an argument that is a real number from `low` to `high`, or raise InputError."""
+    told = f"{name} is {short(value)}; allowed are {low:g} ... {high:g}{what}"
+    if isinstance(value, str | bytes | complex):
+        raise InputError(told)
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError) as error:
+        raise InputError(told) from error
+    if not low <= number <= high:
+        raise InputError(told)
+    return number
+
+
+def numbers(name: str, values: Any) -> Array:
+    """Return values as an array of floats, not copied where it is one already.
+
+    Raises
+    ------
+    InputError
+        If something in it is no real number, or a value is masked: what stands behind a mask is
+        not meant to be used.
+    """
+    if type(values) is np.ndarray and values.dtype == np.float64:
+        return values
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        row = int(np.argwhere(np.atleast_1d(np.ma.getmaskarray(values)))[0, 0])
+        raise InputError(f"{name}: row {row + 1} is masked; fill every value in, or drop the row")
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind not in "biufO" or _has_none(array):
+            raise TypeError(array.dtype.name)
+        return np.asarray(array, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(
+            f"{name} is {short(values)}; an array of real numbers in SI units is wanted"
+        ) from error
+
+
+def _has_none(array: Any) -> bool:
+    return array.dtype.kind == "O" and any(value is None for value in array.flat)
+
+
+def owned(name: str, values: Any) -> Array:
+    """Return `numbers` as a read-only array that nobody else can write to."""
+    array = numbers(name, values)
+    if array.base is None and not array.flags.writeable:
+        return array
+    own: Array = np.array(array, dtype=float)
+    own.flags.writeable = False
+    return own
+
+
+class ByValue:
+    """A frozen dataclass with arrays that compares and hashes by what it holds."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    def __eq__(self, other: object) -> bool:
+        if self is other:
+            return True
+        if type(self) is not type(other):
+            return NotImplemented
+        return all(_equal(a, b) for a, b in zip(_values(self), _values(other), strict=True))
+
+    def __hash__(self) -> int:
+        return hash(tuple(_hashable(value) for value in _values(self)))
+
+
+def _values(item: ByValue) -> Iterable[Any]:
+    return (getattr(item, f.name) for f in fields(item) if f.compare)
+
+
+def _equal(a: Any, b: Any) -> bool:
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return np.array_equal(a, b, equal_nan=True)
+    return bool(a == b or (a != a and b != b))
+
+
+def _hashable(value: Any) -> Any:
+    """Return what hashes alike for equal values: zeros of either sign, NaN, arrays, dicts."""
+    if isinstance(value, np.ndarray):
+        number = value + 0.0
+        return value.shape, np.where(np.isnan(number), np.nan, number).tobytes()
+    if isinstance(value, dict):
+        return tuple(value.items())
+    if isinstance(value, float) and value != value:
+        return "nan"
+    return value

@@ -1,0 +1,68 @@
+"""Guards against forces of a wrong unit let through what the world is built of."""
+
+import numpy as np
+import pytest
+
+from antinode import Beam, Ends, InputError, solve_modes
+from antinode.beam.axial import AxialLoads, PointForce, apply_loads
+from antinode.beam.limits import check_limits
+from antinode.riccati.chain import count_below
+
+ENDS = Ends("pinned", "pinned", right_axial="free")
+
+
+def string(length, bit=250e3, collars=300.0):
+    """A drill string hanging from its top, its collars partly on bottom."""
+    x = [0.0, length - collars, length]
+    beam = Beam.from_stations(x, [31.0, 150, 150], [1.3e6, 8e6, 8e6], [0.75e9, 4e9, 4e9], ends=ENDS)
+    return apply_loads(beam, AxialLoads(8.4, point_forces=(PointForce(length, -bit),)))
+
+
+def test_a_string_of_9_km_with_eight_divergent_modes():
+    """Eight by an LDL count of finite elements; the largest N along all the length gave 17."""
+    beam = string(9000.0)
+    check_limits(beam)
+    assert count_below(beam.chain("bending"), 0.0).tolist() == [8]
+
+
+@pytest.mark.parametrize("length", [3600.0, 6000.0])
+def test_shorter_strings(length):
+    check_limits(string(length))
+
+
+def test_a_riser_in_tension_over_most_of_one_interval():
+    """2 km of one interval: compressed in its lowest tenth only, by a force that looks like 20."""
+    beam = Beam.from_stations(
+        [0.0, 2000.0],
+        [500.0, 500.0],
+        [4e7, 4e7],
+        axial_force=[-9 * 8e4, 8e4],
+        interpolation="linear",
+        ends=Ends("pinned", "pinned"),
+    )
+    check_limits(beam)
+    stiff = Beam.from_stations(
+        [0.0, 2000.0],
+        [500.0, 500.0],
+        [2e6, 2e8],
+        axial_force=[-9 * 8e5, 8e5],
+        interpolation="linear",
+        ends=Ends("pinned", "pinned"),
+    )
+    check_limits(stiff)
+
+
+def test_the_tensest_beam_allowed_is_solved():
+    """Pinned-pinned in uniform tension, closed form (n pi)^4 + T (n pi)^2, in units of EI/L^2."""
+    one, T = np.ones(2), 8.9e7
+    beam = Beam.from_stations([0, 1], one, one, axial_force=-T * one, ends=Ends("pinned", "pinned"))
+    check_limits(beam)
+    mode = solve_modes(beam, 1).modes[0]
+    assert mode.omega2 == pytest.approx(np.pi**4 + T * np.pi**2, rel=1e-9)
+
+
+@pytest.mark.parametrize(("force", "said"), [(1e9, "modes diverge"), (-2e8, "is a string")])
+def test_forces_of_a_wrong_unit_are_still_refused(force, said):
+    one = np.ones(2)
+    with pytest.raises(InputError, match=said):
+        check_limits(Beam.from_stations([0, 1], one, one, axial_force=force * one))
