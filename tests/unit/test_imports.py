@@ -35,8 +35,8 @@ ROOMS = {
 }
 """What a room may import when it is imported: itself, and these. A new room gets a line here."""
 
-MOST_FILES, MOST_IN_ROOT = 22, 10
-"""Python files in a folder, and in the package's own: symptoms, not aims."""
+MOST_FILES, MOST_IN_ROOT, MOST_LINES, MOST_IN_FUNCTION = 22, 10, 500, 60
+"""Python files in a folder and in the package's own, lines of a file and of a function: symptoms."""
 
 HEAVY = (
     "numba",
@@ -108,10 +108,16 @@ def test_a_room_imports_only_the_rooms_below_it(name):
         assert fine, f"{name} imports {other}"
 
 
-def test_no_folder_is_so_large_that_nobody_finds_anything():
+def test_nothing_is_so_large_that_nobody_finds_anything():
     for folder in {path.parent for path in FILES.values()}:
         most = MOST_IN_ROOT if folder == ROOT else MOST_FILES
         assert len(list(folder.glob("*.py"))) <= most, folder
+    for name, path in FILES.items():
+        text = path.read_text(encoding="utf-8")
+        assert len(text.splitlines()) <= MOST_LINES, name
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                assert node.end_lineno - node.lineno < MOST_IN_FUNCTION, f"{name}.{node.name}"
 
 
 def every_import(node):

@@ -143,23 +143,15 @@ class Beam(ByValue):
         """
         stations = np.atleast_1d(numbers("x", x))
         check_stations(stations)
-        intervals = len(stations) - 1
         kept = (np.diff(stations) != 0) | (interpolation == "step")
 
         def between(name: str, values: npt.ArrayLike | None) -> Array | None:
             """Return values at both ends of every interval, shape (n, 2)."""
             if values is None:
                 return None
-            column = numbers(name, values)
-            if column.ndim == 0:
-                column = np.full(len(stations), column)
-            check_rows(name, column, len(stations), interpolation)
-            table = np.empty((intervals, 2))
-            right = column[:intervals] if interpolation == "step" else column[1:]
-            table[:, 0], table[:, 1] = column[:intervals], right
-            own: Array = table[kept]
-            own.flags.writeable = False
-            return own
+            column = _column(name, values, len(stations), interpolation)
+            right = column[: len(kept)] if interpolation == "step" else column[1:]
+            return owned(name, np.stack([column[: len(kept)], right], axis=1)[kept])
 
         m = between("mass_per_length", mass_per_length)
         EI = between("bending_stiffness", bending_stiffness)
@@ -438,3 +430,12 @@ class Beam(ByValue):
 
 
 _SLOPE = np.array([0.0, 1.0])
+
+
+def _column(name: str, values: npt.ArrayLike, rows: int, interpolation: Interpolation) -> Array:
+    """Return a column with a value at every station, from one number for all or one for each."""
+    column = numbers(name, values)
+    if column.ndim == 0:
+        column = np.full(rows, column)
+    check_rows(name, column, rows, interpolation)
+    return column

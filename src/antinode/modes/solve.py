@@ -91,12 +91,29 @@ def solve_modes(
     solver = solver_of(method, choose(backend))
     beam = problem if isinstance(problem, Beam) else problem.beam()
     chosen = beam.families if families is None else _chosen(families)
+    result = _solve_families(beam, chosen, modes, tolerance, solver, method, normalisation)
+    if unloaded:
+        compared = _compare_unloaded(solver.counting, beam, list(result.modes), modes, tolerance)
+        return replace(result, modes=tuple(compared))
+    return result
+
+
+def _solve_families(
+    beam: Beam,
+    families: Sequence[FamilyName],
+    modes: int,
+    tolerance: float,
+    solver: Solver,
+    method: Method,
+    normalisation: Normalisation,
+) -> ModalResult:
+    """Solve family after family, and gather what was found."""
     grid = output_grid(beam, modes)
     found: list[Mode] = []
     segments: dict[str, int] = {}
     solutions: dict[FamilyName, Solution] = {}
     warnings: list[str] = []
-    for family in chosen:
+    for family in families:
         solved = solve_family(beam, family, modes, tolerance, solver)
         named, solutions[family] = _modes_of(
             solver.backend, beam, solved, grid, modes, normalisation
@@ -104,8 +121,6 @@ def solve_modes(
         found += named
         segments[family] = len(solved.chain.length)
         warnings += solved.warnings
-    if unloaded:
-        found = _compare_unloaded(solver.counting, beam, found, modes, tolerance)
     if not all(np.isfinite(mode.omega2) for mode in found):
         raise ComputationError("a frequency is no finite number; check the units of the input")
     warnings += result_warnings(beam, found)
