@@ -36,7 +36,7 @@ ROOMS = {
 """What a room may import when it is imported: itself, and these. A new room gets a line here."""
 
 MOST_FILES, MOST_IN_ROOT, MOST_LINES, MOST_IN_FUNCTION = 22, 10, 500, 60
-"""Python files in a folder and in the package's own, lines of a file and of a function: symptoms."""
+"""Files in a folder and in the package's own, lines of a file and of a function: symptoms."""
 
 HEAVY = (
     "numba",
