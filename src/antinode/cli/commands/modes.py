@@ -30,7 +30,6 @@ def modes(
         A case file: vehicle and condition in TOML. 'antinode init' writes one.
     """
     check_modal_output(output)
-    from antinode.show.loads_table import modes_dict
     from antinode.vehicle.case import load_case
 
     problem = load_case(case, set_)
@@ -39,7 +38,10 @@ def modes(
         from antinode.show.figures import plot_case
 
         draw(plot_case(problem, result), output.plot)
-    write_modes(output, result, lambda: modes_dict(problem, result))
+    if output.file or output.json:
+        from antinode.show.loads_table import modes_dict
+
+        write_modes(output, result, lambda: modes_dict(problem, result))
     if not output.json:
         from antinode.show.printing import console, show_condition, show_modes
 
