@@ -12,7 +12,7 @@ NAMES = set(FAMILIES)
 OBJECTS = {"BENDING", "LONGITUDINAL", "TORSION", "BAR", "SHAFT"}
 TABLES = {"riccati/laws", "beam/families"}
 COMPILED = {"riccati/lanes/laws"}
-TO_GO = {"study/eigenvalues", "study/identify/report"}
+TO_GO = {"study/identify/report"}
 
 
 def modules():

@@ -1,7 +1,8 @@
-"""Certified bending frequencies of many beams at once, by the compiled chain.
+"""Certified frequencies of many beams at once, in bending or another family of modes.
 
     result = solve_many(BeamBatch(length, mass_per_length, bending_stiffness, axial_force))
     result.frequencies_hz
+    shafts = BeamBatch(length, family="torsion", torsional_stiffness=GJ, polar_inertia_per_length=J)
 
 Every beam is a chain of uniform segments, exact as it stands; rigid modes are set aside by their
 index. Each beam starts from the roots of the one before, so that a sweep is best kept in order.
@@ -9,17 +10,17 @@ index. Each beam starts from the roots of the one before, so that a sweep is bes
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from antinode.arguments import ByValue, owned, whole
+from antinode.arguments import ByValue, choice, owned, whole
 from antinode.arrays import Array, Integers
 from antinode.beam.ends import FREE, Ends
+from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.errors import InputError
 from antinode.riccati.chain import Chain
 from antinode.riccati.chains import ChainRoots, Chains
-from antinode.riccati.laws import BENDING
 from antinode.riccati.reasons import (
     BY_ITSELF,
     CLUSTERED,
@@ -67,15 +68,20 @@ class BeamBatch(ByValue):
     axial_force : array, shape (n,) or (beams, n), optional
         N [N], compression positive; zero by default.
     ends : Ends
-        The same for all beams.
+        The same for all beams; each family reads its own of them.
     modes : int
         Elastic modes 1 ... `modes` are computed.
+    family : {"bending", "longitudinal", "torsion"}
+        Of modes. Each has its arrays, no others: bending those above, longitudinal modes
+        `mass_per_length` and `axial_stiffness`, torsion the last two.
+    axial_stiffness, torsional_stiffness, polar_inertia_per_length : array, (n,) or (beams, n)
+        EA [N], GJ [N m^2] and rho I_p [kg m].
 
     Raises
     ------
     InputError
-        If the shapes do not go together, or a value is masked. Values are checked beam by beam
-        when they are solved.
+        If an array of the family is missing or one of another family is given, the shapes do not
+        go together, or a value is masked. Values are checked beam by beam when they are solved.
 
     Notes
     -----
@@ -84,19 +90,24 @@ class BeamBatch(ByValue):
     """
 
     length: Array
-    mass_per_length: Array
-    bending_stiffness: Array
-    axial_force: Array = field(default_factory=lambda: np.zeros(1))
+    mass_per_length: Array | None = None
+    bending_stiffness: Array | None = None
+    axial_force: Array | None = None
     ends: Ends = FREE
     modes: int = 6
+    family: FamilyName = BENDING
+    axial_stiffness: Array | None = None
+    torsional_stiffness: Array | None = None
+    polar_inertia_per_length: Array | None = None
     _one_structure: bool = field(default=False, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        choice("family", self.family, FamilyName)
         object.__setattr__(self, "modes", whole("modes", self.modes, 500))
-        tables = [owned(name, getattr(self, name)) for name in _ARRAYS]
+        tables = self._given()
         rows, n = _common_shape(tables)
-        object.__setattr__(self, "_one_structure", all(_rows(v) == 1 for v in tables[:3]))
-        for name, values in zip(_ARRAYS, tables, strict=True):
+        object.__setattr__(self, "_one_structure", self._varies_by_force(tables))
+        for name, values in tables.items():
             shape = (_rows(values) if name == "length" else rows, n)
             if values.shape != shape:
                 same = values.size == shape[0] * n
@@ -105,21 +116,49 @@ class BeamBatch(ByValue):
             kept.flags.writeable = False
             object.__setattr__(self, name, kept)
 
+    def _given(self) -> dict[str, Array]:
+        """Return the length and the family's tables, with no axial force where none is given."""
+        family = FAMILIES[self.family]
+        given = [name for name in _TABLES if getattr(self, name) is not None]
+        force = family.columns.get("axial_force")
+        missing = [name for name in family.tables if name not in given and name != force]
+        foreign = [name for name in given if name not in family.tables]
+        if missing or foreign:
+            wrong = [f"{name} is missing" for name in missing]
+            wrong += [f"{name} is given, of another family: leave it out" for name in foreign]
+            allowed = ", ".join(f"{t} (optional)" if t == force else t for t in family.tables)
+            raise InputError(
+                f"a batch of family {self.family!r}: {'; '.join(wrong)}; "
+                f"its arrays are length, {allowed}"
+            )
+        if force and force not in given:
+            object.__setattr__(self, force, np.zeros(1))
+        return {name: owned(name, getattr(self, name)) for name in ("length", *family.tables)}
+
+    def _varies_by_force(self, tables: dict[str, Array]) -> bool:
+        """Tell whether all beams are of one structure, and only an axial force tells them apart."""
+        force = FAMILIES[self.family].columns.get("axial_force")
+        return bool(force) and all(_rows(v) == 1 for name, v in tables.items() if name != force)
+
     def __len__(self) -> int:
-        return len(self.mass_per_length)
+        return len(getattr(self, FAMILIES[self.family].stiffness))
+
+
+_TABLES = tuple(dict.fromkeys(name for family in FAMILIES.values() for name in family.tables))
 
 
 def _rows(values: Array) -> int:
     return len(values) if values.ndim > 1 else 1
 
 
-def _common_shape(tables: list[Array]) -> tuple[int, int]:
+def _common_shape(tables: dict[str, Array]) -> tuple[int, int]:
     """Return how many beams and segments the arrays of a batch describe."""
-    rows, n = max(map(_rows, tables)), max(v.shape[-1] if v.ndim else 1 for v in tables)
-    for values in tables:
+    arrays = tables.values()
+    rows, n = max(map(_rows, arrays)), max(v.shape[-1] if v.ndim else 1 for v in arrays)
+    for values in arrays:
         columns = values.shape[-1] if values.ndim else 1
         if values.ndim > 2 or _rows(values) not in (1, rows) or columns not in (1, n) or not n:
-            told = ", ".join(f"{k} {v.shape}" for k, v in zip(_ARRAYS, tables, strict=True))
+            told = ", ".join(f"{name} {v.shape}" for name, v in tables.items())
             raise InputError(
                 "the arrays of a batch have shapes (segments,) or (beams, segments); "
                 f"received {told}"
@@ -127,12 +166,9 @@ def _common_shape(tables: list[Array]) -> tuple[int, int]:
     return rows, n
 
 
-_ARRAYS = ("length", "mass_per_length", "bending_stiffness", "axial_force")
-
-
 @dataclass(frozen=True, eq=False)
 class BatchResult(ByValue):
-    """Elastic bending modes of every beam of a batch, each with its certificate.
+    """Elastic modes of one family of every beam of a batch, each with its certificate.
 
     Attributes
     ----------
@@ -192,7 +228,9 @@ def solve_many(batch: BeamBatch, *, backend: BackendName = "auto") -> BatchResul
     solver = choose(backend)
     found = _solve(solver, batch)
     omega2, low, high, counts, rounding, reason, evaluations = found
-    if translates(batch.ends):  # past buckling its omega^2 = 0 lies above an elastic mode
+    if translates(
+        batch.ends, batch.family
+    ):  # past buckling its omega^2 = 0 lies above an elastic mode
         reason[(reason == 0) & (omega2[:, 0] < 0)] = NOT_BRACKETED
     if not np.isfinite(high).all():
         reason[(reason == 0) & ~np.isfinite(high).all(axis=1)] = NOT_FINITE
@@ -214,10 +252,10 @@ def solve_many(batch: BeamBatch, *, backend: BackendName = "auto") -> BatchResul
 
 def _solve(solver: Backend, batch: BeamBatch) -> ChainRoots:
     """Solve chain after chain; where loads alone vary, by guesses from a few of them."""
-    below, chains = rigid_modes_of(batch.ends), _chains(batch)
+    below, chains = rigid_modes_of(batch.ends, batch.family), _chains(batch)
     guess = None
     if batch._one_structure and solver.name != "numpy":
-        guess = guess_omega2(batch.axial_force, lambda N: _exact(batch, N))
+        guess = guess_omega2(chains.axial_force, lambda N: _exact(batch, N))
     if guess is None:
         return solver.solve_chains(chains, below, batch.modes, _WIDTH)
     found = solver.certify_guesses(chains, guess, below, _WIDTH)
@@ -231,14 +269,19 @@ def _solve(solver: Backend, batch: BeamBatch) -> ChainRoots:
 
 
 def _chains(batch: BeamBatch) -> Chains:
-    h, m, EI, N = (getattr(batch, name) for name in _ARRAYS)
-    return Chains(BENDING, h, m, EI, N, batch.ends.left, batch.ends.right)
+    """Return the beams as chains; where a law has no axial force, it is zero."""
+    family = FAMILIES[batch.family]
+    columns = {name: getattr(batch, table) for name, table in family.columns.items()}
+    m, stiffness = columns["mass"], columns["stiffness"]
+    N = columns["axial_force"] if family.law.has_axial_force else np.zeros(m.shape)
+    return Chains(family.law, batch.length, m, stiffness, N, *batch.ends.of(batch.family))
 
 
 def _exact(batch: BeamBatch, force: Array) -> Array:
     """Return omega^2 of the batch's structure under other forces, NaN where it is not certain."""
-    h, m, EI = batch.length[0], batch.mass_per_length[0], batch.bending_stiffness[0]
-    some = BeamBatch(h, m, EI, force, batch.ends, batch.modes)
+    family = FAMILIES[batch.family]
+    structure = {name: getattr(batch, name)[0] for name in ("length", *family.tables)}
+    some = replace(batch, **structure | {family.columns["axial_force"]: force})
     object.__setattr__(some, "_one_structure", False)
     return solve_many(some).omega2
 
@@ -249,10 +292,10 @@ def _alone(solver: Backend, batch: BeamBatch, row: int, results: ChainRoots) -> 
     Modes that nearly coincide are parted by frames; past buckling an elastic mode lies below the
     translation, whose omega^2 = 0 is set aside.
     """
-    below, chain = rigid_modes_of(batch.ends), _chains(batch)[row]
+    below, chain = rigid_modes_of(batch.ends, batch.family), _chains(batch)[row]
     if not _is_valid(chain):
         return INVALID
-    zeros = zeros_of(batch.ends, chain.axial_force)
+    zeros = zeros_of(batch.ends, chain)
     try:
         found = solver.find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
         if not check_certificate(found):
@@ -272,8 +315,8 @@ def _alone(solver: Backend, batch: BeamBatch, row: int, results: ChainRoots) -> 
 def _is_valid(chain: Chain) -> bool:
     """Tell whether lengths, masses and stiffnesses are positive, and all is finite."""
     structure = np.concatenate([chain.length, chain.mass, chain.stiffness])
-    positive = np.all((structure > 0) & np.isfinite(structure))
-    return bool(positive and np.all(np.isfinite(chain.axial_force)))
+    finite = all(np.all(np.isfinite(values)) for values in (structure, *chain.columns.values()))
+    return bool(finite and np.all(structure > 0))
 
 
 def _rounding_by_shapes(solver: Backend, chain: Chain, found: list[Eigenvalue]) -> Array:

@@ -130,7 +130,7 @@ def _by_modes(beam: Beam, modes: int, tolerance: float, backend: BackendName) ->
 def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Frequencies | None:
     """Solve with steps halved until two extrapolated results agree; None where that fails."""
     held: tuple[str, str, tuple[Point, ...]] = beam.ends.left, beam.ends.right, ()
-    rigid, acceleration, mass_left = rigid_modes_of(beam.ends), 0.0, _NOT_READ
+    rigid, acceleration, mass_left = rigid_modes_of(beam.ends, BENDING), 0.0, _NOT_READ
     if beam.attachments or beam.axial_acceleration:
         held, rigid, acceleration, mass_left = _held_and_accelerated(beam)
     left, right, points = held

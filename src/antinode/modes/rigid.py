@@ -70,18 +70,28 @@ def elastic(found: Sequence[Eigenvalue], rigid: int) -> list[Eigenvalue]:
     return others[rigid - (len(found) - len(others)) :]
 
 
-def translates(ends: Ends) -> bool:
-    """Tell whether the ends leave the beam free to move sideways."""
-    return not {ends.left, ends.right} & {"clamped", "pinned"}
+def translates(ends: Ends, name: FamilyName) -> bool:
+    """Tell whether the ends leave the family's first displacement free, as translation is."""
+    return not any(0 in held for held in _held(ends, name))
 
 
-def zeros_of(ends: Ends, axial_force: Array) -> int:
+def zeros_of(ends: Ends, chain: Chain) -> int:
     """Return how many rigid modes of a chain held at its ends alone have omega^2 = 0 exactly."""
-    return int(translates(ends)) if np.any(axial_force) else rigid_modes_of(ends)
+    if chain.law.has_axial_force and np.any(chain.axial_force):
+        return int(translates(ends, chain.family))
+    return rigid_modes_of(ends, chain.family)
 
 
-def rigid_modes_of(ends: Ends) -> int:
-    """Return how many rigid modes the ends leave: the index of the last one."""
-    held = [end in ("clamped", "pinned") for end in (ends.left, ends.right)]
-    turned = [end in ("clamped", "sliding") for end in (ends.left, ends.right)]
-    return 2 - min(2, sum(held) + any(turned))
+def rigid_modes_of(ends: Ends, name: FamilyName) -> int:
+    """Return how many rigid modes of a family the ends leave: the index of the last one.
+
+    Either end that holds the displacement takes one, and so do both together that hold its slope.
+    """
+    held = _held(ends, name)
+    taken = sum(0 in end for end in held) + any(1 in end for end in held)
+    return max(len(FAMILIES[name].rigid) - taken, 0)
+
+
+def _held(ends: Ends, name: FamilyName) -> list[tuple[int, ...]]:
+    """Return the displacements that either end holds."""
+    return [FAMILIES[name].law.ends[end] for end in ends.of(name)]

@@ -8,17 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.ends import FREE
-from antinode.beam.families import BENDING, FAMILIES, FamilyName
+from antinode.beam.families import FAMILIES, FamilyName
 from antinode.errors import ComputationError
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.modes.hertz import signed_hertz
-from antinode.modes.rigid import elastic, zeros_of
+from antinode.modes.rigid import elastic, rigid_modes_of, zeros_of
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.vehicle.case import Case
@@ -70,44 +71,44 @@ def eigenvalues_of(
     """
     beams = [case.beam() for case in cases]
     modes: list[dict[FamilyName, ChainModes]] = [{} for _ in cases]
-    rows = [k for k, families in enumerate(wanted) if BENDING in families]
-    chains = [beams[k].chain(BENDING, refinement) for k in rows]
-    numbers = [wanted[k][BENDING] for k in rows]
-    for k, chain, omega2 in zip(rows, chains, _bending(chains, numbers), strict=True):
-        modes[k][BENDING] = ChainModes(chain, omega2)
-    for k, families in enumerate(wanted):
-        for family, number in families.items():
-            if not FAMILIES[family].law.has_axial_force:
-                chain = beams[k].chain(family, refinement)
-                modes[k][family] = ChainModes(chain, _solve(chain, number, 1, 1))
+    for family in FAMILIES:
+        rows = [k for k, families in enumerate(wanted) if family in families]
+        chains = [beams[k].chain(family, refinement) for k in rows]
+        numbers = [wanted[k][family] for k in rows]
+        for k, chain, omega2 in zip(rows, chains, _side_by_side(chains, numbers), strict=True):
+            modes[k][family] = ChainModes(chain, omega2)
     return tuple(map(CaseEigenvalues, cases, [case.loads for case in cases], beams, modes))
 
 
-def _bending(chains: Sequence[Chain], numbers: Sequence[int]) -> list[Array]:
-    """Return the eigenvalues 1 ... n of free-free chains; those of equal size side by side."""
+def _side_by_side(chains: Sequence[Chain], numbers: Sequence[int]) -> list[Array]:
+    """Return the eigenvalues 1 ... n of free chains of a family; those of equal size in a batch."""
     found: list[Array] = [np.zeros(0)] * len(chains)
     sizes = [len(chain.length) for chain in chains]
     for size in set(sizes):
         rows = [k for k, n in enumerate(sizes) if n == size]
-        batch = BeamBatch(
-            length=np.stack([chains[k].length for k in rows]),
-            mass_per_length=np.stack([chains[k].mass for k in rows]),
-            bending_stiffness=np.stack([chains[k].stiffness for k in rows]),
-            axial_force=np.stack([chains[k].axial_force for k in rows]),
-            modes=max(numbers[k] for k in rows),
-        )
-        omega2 = solve_many(batch).omega2
-        for k, values in zip(rows, omega2, strict=True):
+        batch = _batch([chains[k] for k in rows], max(numbers[k] for k in rows))
+        for k, values in zip(rows, solve_many(batch).omega2, strict=True):
             known = bool(np.all(np.isfinite(values)))
-            zeros = zeros_of(FREE, chains[k].axial_force)
-            found[k] = values[: numbers[k]] if known else _solve(chains[k], numbers[k], 2, zeros)
+            found[k] = values[: numbers[k]] if known else _solve(chains[k], numbers[k])
     return found
 
 
-def _solve(chain: Chain, number: int, rigid: int, zeros: int) -> Array:
-    """Return the eigenvalues 1 ... n of a chain, after its rigid modes, some of them at zero."""
+def _batch(chains: Sequence[Chain], modes: int) -> BeamBatch:
+    """Return free chains of a family and of equal size as a batch."""
+    family = FAMILIES[chains[0].family]
+    tables: dict[str, Any] = {
+        table: np.stack([chain.columns[name] for chain in chains])
+        for name, table in family.columns.items()
+    }
+    length = np.stack([chain.length for chain in chains])
+    return BeamBatch(length, modes=modes, family=family.name, **tables)
+
+
+def _solve(chain: Chain, number: int) -> Array:
+    """Return the eigenvalues 1 ... n of a free chain, after its rigid modes."""
+    rigid = rigid_modes_of(FREE, chain.family)
     try:
-        found = find_eigenvalues(chain, number + rigid, zeros=zeros)
+        found = find_eigenvalues(chain, number + rigid, zeros=zeros_of(FREE, chain))
     except (CountingError, FloatingPointError) as error:
         wrong = f"the {chain.family} eigenvalues could not be found: {error}"
         raise ComputationError(wrong) from error

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 import antinode as an
+from antinode.beam.families import FAMILIES
 from antinode.modes.batch import REASONS
+from antinode.riccati.reasons import INVALID
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 
@@ -255,6 +257,132 @@ def test_numpy_says_why_as_well():
     EI[1, 2], N[2], EI[3], N[3] = -1.0, np.nan, 1e-9, 1e20
     result = an.solve_many(an.BeamBatch(one, one, EI, N), backend="numpy")
     assert [result.why(k)[:7] for k in range(4)] == ["", "invalid", "invalid", "out of "]
+
+
+WAVES = sorted(name for name, family in FAMILIES.items() if not family.law.has_axial_force)
+WAVE_ENDS = [(a, b) for a in ("free", "fixed") for b in ("free", "fixed")]
+
+
+def ends_of(family, left, right):
+    """Ends of a family, the lateral ones of another kind."""
+    return an.Ends(
+        "sliding", "sliding", **dict(zip(FAMILIES[family].ends, (left, right), strict=True))
+    )
+
+
+def wave_batch(family, length, mass, stiffness, ends, modes=5):
+    columns = FAMILIES[family].columns
+    tables = {columns["mass"]: mass, columns["stiffness"]: stiffness}
+    return an.BeamBatch(length, ends=ends, modes=modes, family=family, **tables)
+
+
+@pytest.mark.parametrize("backend", ["numba", "numpy"])
+@pytest.mark.parametrize("ends", WAVE_ENDS)
+@pytest.mark.parametrize("family", WAVES)
+def test_uniform_bars_and_shafts_have_their_closed_form(family, ends, backend):
+    """omega = k pi c/L, with k = 1, 2, ... for like ends, 1/2, 3/2, ... else; c^2 = K/m."""
+    one, K = np.ones((3, 7)), np.array([[1.0], [16.0], [5e9]])
+    batch = wave_batch(family, 3 * one[0] / 7, 2 * one, K * one, ends_of(family, *ends), 6)
+    result = an.solve_many(batch, backend=backend)
+    k = np.arange(1, 7) - (0.0 if ends[0] == ends[1] else 0.5)
+    exact = K / 2 * (k * np.pi / 3) ** 2
+    assert not result.reason.any()
+    assert result.omega2 == pytest.approx(exact, rel=1e-12)
+    assert result.frequencies_hz == pytest.approx(np.sqrt(exact) / (2 * np.pi), rel=1e-12)
+    low, high = np.moveaxis(result.bracket_omega2, -1, 0)
+    assert np.all((low <= exact) & (exact <= high))
+    index = np.arange(6) + (ends == ("free", "free"))
+    assert np.all(result.counts == np.stack([index, index + 1], axis=1))
+
+
+@pytest.mark.parametrize("shared", [False, True])
+@pytest.mark.parametrize("ends", WAVE_ENDS)
+@pytest.mark.parametrize("family", WAVES)
+def test_stepped_bars_and_shafts_are_their_single_solves(family, ends, shared):
+    rng, n = np.random.default_rng([WAVE_ENDS.index(ends), shared]), 12
+    h, m = rng.uniform(0.5, 1.5, n), rng.uniform(1, 3, n if shared else (90, n))
+    K = 10 ** rng.uniform(3, 5, (90, n))
+    batch = wave_batch(family, h, m, K, ends_of(family, *ends))
+    result, some = an.solve_many(batch), (0, 40, 89)
+    assert len(batch) == len(result) == 90
+    assert not result.reason.any()
+    for row in some:
+        tables = {FAMILIES[family].columns["stiffness"]: K[row]}
+        tables |= {FAMILIES[family].columns["mass"]: m if shared else m[row]}
+        x, one = np.concatenate([[0.0], np.cumsum(h)]), np.ones(n)
+        given = {"mass_per_length": one, "bending_stiffness": one} | tables
+        beam = an.Beam.from_stations(x, **given, ends=batch.ends)
+        found = an.solve_modes(beam, 5, families=[family], backend="numpy").modes
+        modes = [mode for mode in found if mode.number]
+        assert result.omega2[row] == pytest.approx([mode.omega2 for mode in modes], rel=2e-10)
+        assert result.counts[row].tolist() == [list(mode.counts) for mode in modes]
+    few = wave_batch(family, h, m if shared else m[:4], K[:4], batch.ends)
+    slow = an.solve_many(few, backend="numpy")
+    assert not slow.reason.any()
+    assert slow.omega2 == pytest.approx(result.omega2[:4], rel=2e-10)
+    assert np.array_equal(slow.counts, result.counts[:4])
+
+
+@pytest.mark.parametrize("backend", ["numba", "numpy"])
+@pytest.mark.parametrize("family", WAVES)
+def test_one_bar_or_shaft_that_fails_touches_no_other(family, backend):
+    m, K = np.ones((2, 5, 6))
+    m[1, 3], K[3, 0] = np.nan, -1.0
+    h, ends = np.full(6, 0.2), ends_of(family, "free", "free")
+    result = an.solve_many(wave_batch(family, h, m, K, ends, 2), backend=backend)
+    assert result.reason.tolist() == [0, INVALID, 0, INVALID, 0]
+    assert "positive" in result.why(1)
+    assert np.isnan(result.omega2[[1, 3]]).all()
+    assert result.omega2[[0, 2, 4], 0] == pytest.approx((np.pi / 1.2) ** 2, rel=1e-12)
+
+
+def test_ends_of_a_family_follow_the_lateral_ones_where_none_are_given():
+    """Pinned ends hold a bar and let a shaft turn; clamped ones hold both."""
+    one = np.ones(4)
+    for end, held in (("pinned", {"longitudinal"}), ("clamped", {"longitudinal", "torsion"})):
+        for family in WAVES:
+            batch = wave_batch(family, one / 4, one, one, an.Ends(end, "free"), 1)
+            share = 0.5 if family in held else 1.0
+            assert an.solve_many(batch).omega2[0, 0] == pytest.approx((share * np.pi) ** 2)
+
+
+def test_the_family_of_old_is_bending():
+    batch = random_batch(np.random.default_rng(2), "free", "clamped")
+    parts = batch.length, batch.mass_per_length, batch.bending_stiffness, batch.axial_force
+    named = an.BeamBatch(*parts, batch.ends, batch.modes, "bending")
+    assert named == batch
+    assert an.solve_many(named) == an.solve_many(batch)
+    unloaded = an.BeamBatch(*parts[:3])
+    assert np.array_equal(unloaded.axial_force, np.zeros((12, 15)))
+
+
+@pytest.mark.parametrize(
+    ("family", "given", "told"),
+    [
+        ("bending", ["mass_per_length"], "bending_stiffness is missing; its arrays are length, "),
+        ("longitudinal", ["mass_per_length"], "axial_stiffness is missing"),
+        ("torsion", ["torsional_stiffness"], "polar_inertia_per_length is missing"),
+        (
+            "longitudinal",
+            ["mass_per_length", "axial_stiffness", "axial_force"],
+            "axial_force is given, of another family: leave it out",
+        ),
+        (
+            "torsion",
+            ["torsional_stiffness", "mass_per_length"],
+            "polar_inertia_per_length is missing; mass_per_length is given",
+        ),
+        (
+            "bending",
+            ["mass_per_length", "bending_stiffness", "axial_stiffness"],
+            "axial_stiffness is given",
+        ),
+        ("shear", [], "family is 'shear'; allowed are 'bending', 'longitudinal', 'torsion'"),
+    ],
+)
+def test_a_batch_has_the_arrays_of_its_family(family, given, told):
+    with pytest.raises(an.InputError, match=told):
+        an.BeamBatch(np.ones(3), family=family, **dict.fromkeys(given, np.ones(3)))
 
 
 def test_no_solve_imports_numba():

@@ -166,12 +166,13 @@ def chain_of(chains: Chains, i: int) -> Chain:
 
 def _by_frames(chain: Chain, modes: int) -> tuple[Array, Array] | None:
     """Return omega^2 of the elastic modes of a free chain, and its error."""
-    zeros = zeros_of(FREE, chain.axial_force)
+    zeros = zeros_of(FREE, chain)
+    rigid = rigid_modes_of(FREE, chain.family)
     try:
-        found = find_eigenvalues(chain, modes + rigid_modes_of(FREE), zeros=zeros)
+        found = find_eigenvalues(chain, modes + rigid, zeros=zeros)
     except (CountingError, FloatingPointError, ValueError):
         return None
-    rest = elastic(found, rigid_modes_of(FREE))[:modes]
+    rest = elastic(found, rigid)[:modes]
     if len(rest) < modes:
         return None
     omega2 = np.array([e.omega2 for e in rest])
