@@ -11,7 +11,7 @@ from scipy.sparse import coo_array, csc_array, eye_array
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from antinode.arrays import Array
-from antinode.beam.families import BENDING, FamilyName
+from antinode.beam.families import BENDING, FAMILIES, FamilyName
 
 from .elements import Kind, Matrices, bar, solid
 from .mesh import AXIAL, LATERAL, TURN, Mesh
@@ -41,7 +41,7 @@ class Assembly:
 
     def family(self, name: FamilyName) -> tuple[Any, Any, Any]:
         """Return K, M and G of the free freedoms of a family."""
-        T = self.free[:, np.flatnonzero(self.axial != (name == BENDING))]
+        T = self.free[:, np.flatnonzero(self.axial == (0 in FAMILIES[name].freedoms))]
         K, M, G = (csc_array(T.T @ A @ T) for A in (self.K, self.M, self.G))
         return K, M, G
 
