@@ -54,6 +54,18 @@ def test_one_steep_cell_and_a_force_of_both_signs(ends):
         assert found == pytest.approx(831.833160313, rel=1e-6)
 
 
+def test_a_long_drawn_segment_beside_a_short_compressed_one():
+    """Its waves at the critical factor are many: it is cut for shapes and their energies."""
+    beam = Beam.from_stations(
+        [0, 100, 101], 1.0, 1.0, None, [-1.0, 1.0], ends=Ends("pinned", "pinned")
+    )
+    check(beam)
+    mast = Beam.from_stations(
+        [0, 30, 30.5, 60], 100.0, 2e6, None, [-50e3, 40e3, -50e3], ends=Ends("pinned", "pinned")
+    )
+    assert check(mast) == pytest.approx(596.69494516, rel=1e-9)
+
+
 def test_rounding_is_no_compression():
     """A force that is zero but for the last digits does not buckle a beam in tension."""
     beam = Beam.from_stations(

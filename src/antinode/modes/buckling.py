@@ -24,7 +24,7 @@ from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import ComputationError
 from antinode.riccati.bracket import Sample, narrow
 from antinode.riccati.chain import Chain
-from antinode.riccati.shapes import Energies, energies
+from antinode.riccati.shapes import Energies, energies, split_for
 
 from .backends import Backend, BackendName, choose, for_one
 from .refinement import ROUNDING, Refinement, layer_length, varying_segments
@@ -143,9 +143,10 @@ def _rounding(solver: Backend, loaded: Chain) -> float:
     The factor is the strain over the work of the forces, which may cancel in part.
     """
     zero, one = np.zeros(1), np.ones(1, dtype=np.int64)
-    states = solver.mode_states(loaded, zero, one)
-    own: Energies = solver.mode_energies(loaded, states, zero)
-    strain = energies(_loaded(loaded, 0.0), states, own.squares).stiffness
+    fine = split_for(loaded, zero)
+    states = solver.mode_states(fine, zero, one)
+    own: Energies = solver.mode_energies(fine, states, zero)
+    strain = energies(_loaded(fine, 0.0), states, own.squares).stiffness
     return float(ROUNDING * own.size[0] / strain[0])
 
 
