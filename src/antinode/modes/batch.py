@@ -34,7 +34,7 @@ from antinode.riccati.roots import CountingError, Eigenvalue, check_certificate
 from antinode.riccati.shapes import split_for
 
 from .backends import Backend, BackendName, choose
-from .brackets import share_brackets
+from .brackets import ROUNDING, cancelling, share_brackets
 from .guesses import guess_omega2
 from .hertz import error_hz, hertz
 from .rigid import elastic, rigid_modes_of, translates, zeros_of
@@ -51,7 +51,6 @@ REASONS = (
 """What the codes in `BatchResult.reason` mean; 0 is success."""
 
 _WIDTH = 0.98e-10  # of a bracket before its rounding, relative in omega^2
-_ROUNDING = 64 * np.finfo(float).eps
 _ALONE = NOT_BRACKETED, CLUSTERED, BY_ITSELF
 
 
@@ -325,4 +324,4 @@ def _rounding_by_shapes(solver: Backend, chain: Chain, found: list[Eigenvalue]) 
     together = np.array([sum(other.bracket == v.bracket for other in found) for v in found])
     fine = split_for(chain, omega2)
     energies = solver.mode_energies(fine, solver.mode_states(fine, omega2, together), omega2)
-    return np.asarray(_ROUNDING * energies.size / energies.mass)
+    return ROUNDING * cancelling(energies.size, energies.mass, omega2)

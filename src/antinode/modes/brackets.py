@@ -6,6 +6,9 @@ import numpy as np
 
 from antinode.arrays import Array, Integers
 
+ROUNDING = 64 * np.finfo(float).eps
+"""Share of what must cancel to make an eigenvalue that its rounding is taken for."""
+
 
 def share_brackets(low: Array, high: Array, counts: Integers) -> None:
     """Join the brackets of ascending modes that overlap, with their counts, in place.
@@ -20,3 +23,15 @@ def share_brackets(low: Array, high: Array, counts: Integers) -> None:
     for group in np.split(np.arange(len(low)), edges):
         low[group], high[group] = low[group].min(), high[group].max()
         counts[group] = counts[group, 0].min(), counts[group, 1].max()
+
+
+def cancelling(size: Array, mass: Array, omega2: Array) -> Array:
+    """Return what must cancel to make each omega^2 [rad^2/s^2]: its rounding is a share of it.
+
+    That is the size of the mode's energies over its mass. Where an elastic mode lies so near zero
+    that rounding may hide it, its shape cannot be told from a rigid one's, which stores nothing:
+    it is given the most that any mode has.
+    """
+    own = size / mass
+    most = np.nanmax(own, initial=0.0)
+    return np.where((omega2 != 0.0) & (np.abs(omega2) < ROUNDING * most), most, own)

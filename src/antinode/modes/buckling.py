@@ -27,7 +27,8 @@ from antinode.riccati.chain import Chain
 from antinode.riccati.shapes import Energies, energies, split_for
 
 from .backends import Backend, BackendName, choose, for_one
-from .refinement import ROUNDING, Refinement, layer_length, varying_segments
+from .brackets import ROUNDING
+from .refinement import Refinement, layer_length, varying_segments
 from .result import ModalResult
 from .rigid import rigid_modes
 

@@ -22,7 +22,6 @@ from antinode.riccati.roots import Eigenvalue
 from .rigid import exact_zeros, rigid_modes
 from .solvers import Solver
 
-ROUNDING = 64 * np.finfo(float).eps  # times the conditioning of an eigenvalue
 NEAR_ZERO = 1e-9  # of the chain's own omega^2: what lies below is as good as zero
 _MOST_SEGMENTS = 100_000
 _MOST_WORK = 250_000  # segments times modes, some seconds

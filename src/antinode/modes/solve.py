@@ -24,8 +24,9 @@ from antinode.errors import ComputationError, InputError
 from antinode.riccati.chain import omega2_scale
 
 from .backends import Backend, BackendName, choose, for_one
+from .brackets import ROUNDING, cancelling
 from .naming import name_modes, with_joint_brackets
-from .refinement import ROUNDING, Solved, solve_family
+from .refinement import Solved, solve_family
 from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .shapes import estimate_model_errors, normalising_factors, on_grid, output_grid, shapes
 from .solvers import Solver, solver_of
@@ -184,7 +185,8 @@ def _modes_of(
     at_grid = on_grid(chain, states, omega2, grid - grid[0])
     energies = energies.scaled(scale)
     model_errors = estimate_model_errors(beam, chain, omega2, energies)
-    quadratic = np.transpose(energies[1:]).tolist()
+    size = cancelling(energies.size, energies.mass, omega2) * energies.mass
+    quadratic = np.transpose([energies.mass, energies.stiffness, size]).tolist()
     rows = [
         _mode(solved, k, names[k], at_grid[:, column], quadratic[column], model_errors[column])
         for column, k in enumerate(keep)
