@@ -313,8 +313,8 @@ class TestTorsion:
         assert beam.ends.right_torsion == "fixed"
 
     def test_the_inertia_of_mass_that_carries_nothing(self, tmp_path):
-        stations = ",,,,,,,,\n,0.,0.,,,.25,.35\n"
-        beam, _ = read(tmp_path, GRIDS, BEAMS, PBEAM.format(stations[10:]), MAT1, CLAMP)
+        pbeam = PBEAM.format(",0.,0.,,,.25,.35\n")
+        beam, _ = read(tmp_path, GRIDS, BEAMS, pbeam, MAT1, CLAMP)
         rho = 7850 * 7e-7
         np.testing.assert_allclose(
             beam.polar_inertia_per_length[0], [rho + 0.25, rho + 0.35], rtol=1e-12

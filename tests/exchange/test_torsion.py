@@ -84,11 +84,17 @@ def test_a_deck_there_and_back(shaft, units, tmp_path):
     convert(shaft, deck := tmp_path / "deck.bdf", "--units", units)
     convert(deck, target := tmp_path / "again.toml", "--units", units)
     before, after = load_beam(shaft).beam(), load_beam(target).beam()
-    assert after.ends == before.ends or after.ends.of("torsion") == before.ends.of("torsion")
+    assert after.ends.of("torsion") == before.ends.of("torsion")
     assert sum(getattr(item, "polar_inertia", 0) for item in after.attachments) == pytest.approx(3)
-    mass = [np.sum(b.polar_inertia_per_length.mean(axis=1) * np.diff(b.x)) for b in (before, after)]
-    assert mass[1] == pytest.approx(mass[0], rel=0.05 if "log" in shaft.read_text() else 1e-7)
-    assert hertz(target) == pytest.approx(hertz(shaft), rel=1e-4)
+    assert polar_inertia(after) == pytest.approx(polar_inertia(before), rel=1e-6)
+    assert hertz(target) == pytest.approx(hertz(shaft), rel=2e-4)
+
+
+def polar_inertia(beam):
+    """Of the shaft itself [kg m^2]."""
+    t = np.arange(0.005, 1, 0.01)
+    rows = [beam.column_at("polar_inertia_per_length", k, t) for k in range(len(beam.x) - 1)]
+    return np.sum(np.mean(rows, axis=1) * np.diff(beam.x))
 
 
 def test_another_reader_finds_torsion_in_a_deck(shaft, tmp_path):
@@ -97,7 +103,7 @@ def test_another_reader_finds_torsion_in_a_deck(shaft, tmp_path):
     beam = load_beam(shaft).beam()
     bars = [model.elements[k] for k in sorted(model.elements) if model.elements[k].type == "CBAR"]
     assert bars[0].G() * bars[0].J() == pytest.approx(beam.torsional_stiffness[0, 0], rel=2e-3)
-    assert bars[-1].G() * bars[-1].J() == pytest.approx(beam.torsional_stiffness[1, 1], rel=2e-3)
+    assert bars[-1].G() * bars[-1].J() == pytest.approx(beam.torsional_stiffness[-1, 1], rel=2e-3)
     rows = [row for row in expected(deck) if row[0].startswith("torsion")]
     assert len(rows) == 3
     assert worst(Deck(deck).modes(1)[2], rows) < 2e-6

@@ -35,6 +35,8 @@ class Rectangle(NamedTuple):
     sign: int = 1
 
 
+_ZETA_5 = 1.0369277551433699
+"""Sum of 1/n^5, of which the odd n make up 31/32."""
 Shape = Callable[..., list[Rectangle]]
 
 
@@ -67,8 +69,9 @@ def cross_section(kind: str, dimensions: Sequence[float]) -> CrossSection:
 def _rectangle_in_torsion(d1: float, d2: float) -> float:
     """Return J of a rectangle (Timoshenko and Goodier, Theory of Elasticity, equation 160)."""
     a, b = max(d1, d2), min(d1, d2)
-    n = np.arange(1, 200, 2)
-    series = float(np.sum(np.tanh(n * math.pi * a / (2 * b)) / n**5))
+    n = np.arange(1, 20, 2)
+    rest = 2 / (np.exp(n * math.pi * a / b) + 1) / n**5
+    series = 31 / 32 * _ZETA_5 - float(np.sum(rest))
     return a * b**3 / 3 * (1 - 192 / math.pi**5 * b / a * series)
 
 
