@@ -13,7 +13,7 @@ from antinode.arrays import Array
 from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
 from antinode.beam.beam import Beam
 from antinode.beam.ends import AxialEnd, Ends
-from antinode.beam.families import LONGITUDINAL, TORSION
+from antinode.beam.families import LONGITUDINAL, TORSION, tells
 
 Item = TypeVar("Item", PointMass, Spring, Joint)
 
@@ -184,19 +184,19 @@ def mesh_of(beam: Beam, count: int, *, twists: bool = False) -> Mesh:
     size = 1 / pieces[k]
     x = np.append(beam.x[k] + np.diff(beam.x)[k] * within * size, beam.x[-1])
 
-    def mean(values: Array, power: int = 1) -> Array:
-        sides = [beam.at(values, k, (within + g) * size) ** power for g in _GAUSS]
+    def mean(name: str, power: int = 1) -> Array:
+        sides = [beam.column_at(name, k, (within + g) * size) ** power for g in _GAUSS]
         return np.asarray(np.mean(sides, axis=0) ** power)
 
-    GJ, inertia = beam.torsional_stiffness, beam.polar_inertia_per_length
-    EI, EA = mean(beam.bending_stiffness, -1), beam.axial_stiffness
+    EI, twists = mean("bending_stiffness", -1), twists and tells(beam, TORSION)
+    has_EA = beam.axial_stiffness is not None
     return Mesh(
         beam,
         x,
-        mean(beam.mass_per_length),
+        mean("mass_per_length"),
         EI,
-        EI / (SLENDER * beam.length) ** 2 if EA is None else mean(EA, -1),
+        mean("axial_stiffness", -1) if has_EA else EI / (SLENDER * beam.length) ** 2,
         np.mean([beam.axial_force_at(k, (within + g) * size) for g in _GAUSS], axis=0),
-        mean(GJ, -1) if twists and GJ is not None else None,
-        mean(inertia) if twists and inertia is not None else None,
+        mean("torsional_stiffness", -1) if twists else None,
+        mean("polar_inertia_per_length") if twists else None,
     )

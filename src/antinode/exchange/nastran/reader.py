@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
 from antinode.beam.beam import Beam
-from antinode.beam.ends import Ends
 from antinode.exchange.units import SI, System
 from antinode.text import counted
 
@@ -58,31 +58,8 @@ def read_nastran(
     model = read_model(deck, elements)
     line = line_of(model, plane)
     modal, static = subcases_of(deck)
-    tables, x = tables_of(model, line, plane)
-    lumps = lumps_of(model, line, tables)
-    if lumps:
-        tables[INERTIA] = spread(line, lumps, x) * model.mass_factor
-    attachments, held = attachments_of(model, line, modal, lumps)
-    no_torsion = missing(line, tables, held, attachments)
-    if no_torsion:
-        tables = {name: tables[name] for name in tables if name not in (GJ, INERTIA)}
-        held, attachments = without(held, attachments)
-    tapered = any(np.any(t[:, 0] != t[:, 1]) for t in tables.values())
-    tables = {name: table / _unit(name, system) for name, table in tables.items()}
-    beam = Beam(
-        x / system.length,
-        tables["mass_per_length"],
-        tables["bending_stiffness"],
-        tables.get("axial_stiffness"),
-        torsional_stiffness=tables.get(GJ),
-        polar_inertia_per_length=tables.get(INERTIA),
-        ends=_ends(held, len(line.x) - 1, torsion=not no_torsion),
-        interpolation="linear" if tapered else "step",
-        name=path.stem[:200] or "beam",
-    )
-    supports = inner_supports(held, line.x)
-    items = [_in_si(item, system) for item in (*attachments, *supports)]
-    beam = beam.with_attachments(*items)
+    beam, no_torsion = _beam(model, line, modal, plane, system)
+    beam = replace(beam, name=path.stem[:200] or "beam")
     if static:
         beam = preloaded(beam, model, line, static, system)
     strings = axial_force_of_strings(model, line)
@@ -96,9 +73,30 @@ def read_nastran(
     return beam, notes
 
 
-def _ends(held: dict[int, set[str]], last: int, *, torsion: bool) -> Ends:
-    ends = ends_of(held, last)
-    return ends if torsion else replace(ends, left_torsion=None, right_torsion=None)
+def _beam(
+    model: Model, line: Line, modal: Subcase | None, plane: int, system: System
+) -> tuple[Beam, str | None]:
+    """Return the beam without axial force, and why it has no torsion, if it has none."""
+    tables, x = tables_of(model, line, plane)
+    lumps = lumps_of(model, line, tables)
+    if lumps:
+        tables[INERTIA] = spread(line, lumps, x) * model.mass_factor
+    items, held = attachments_of(model, line, modal, lumps)
+    no_torsion = missing(line, tables, held, items)
+    if no_torsion:
+        tables = {name: tables[name] for name in tables if name not in (GJ, INERTIA)}
+        held, items = without(held, items)
+    ends = ends_of(held, len(line.x) - 1)
+    tapered = any(np.any(t[:, 0] != t[:, 1]) for t in tables.values())
+    columns: dict[str, Any] = {n: table / _unit(n, system) for n, table in tables.items()}
+    beam = Beam(
+        x / system.length,
+        ends=replace(ends, left_torsion=None, right_torsion=None) if no_torsion else ends,
+        interpolation="linear" if tapered else "step",
+        **columns,
+    )
+    own = (_in_si(item, system) for item in (*items, *inner_supports(held, line.x)))
+    return beam.with_attachments(*own), no_torsion
 
 
 def _under(beam: Beam, line: Line, strings: Array, system: System) -> Beam:
