@@ -312,6 +312,12 @@ class TestTorsion:
         assert beam.attachments == (PointMass(2.0, 4.0, 0.1, 0.0, 25.0),)
         assert beam.ends.right_torsion == "fixed"
 
+    def test_a_spring_and_a_support_on_an_arm(self, tmp_path):
+        arm = "GRID,9,,2.4,0.,.3\nRBE2,20,3,123456,9\nCELAS2,30,3.+6,9,4\nSPC1,7,4,9\n"
+        beam, _ = read(tmp_path, GRIDS, BARS, TUBE, MAT1, CLAMP, arm)
+        assert beam.attachments == (Spring(2.0, torsional=3e6),)
+        assert beam.ends.right_torsion == "fixed"
+
     def test_the_inertia_of_mass_that_carries_nothing(self, tmp_path):
         pbeam = PBEAM.format(",0.,0.,,,.25,.35\n")
         beam, _ = read(tmp_path, GRIDS, BEAMS, pbeam, MAT1, CLAMP)

@@ -117,6 +117,8 @@ def _check_arm(arm: Array, names: set[str], card: Card, *, all_held: bool = Fals
     """Refuse what holds a grid beside the axis so that an arm becomes a lever."""
     size = max(float(np.max(np.abs(arm))), 1e-300)
     along, beside, normal = (abs(float(v)) > 1e-9 * size for v in arm)
+    if names <= {"torsional"}:
+        return
     if size <= 1e-12 or all_held or ({*_FREEDOMS[:3]} <= names and not normal):
         return
     if along or normal or (beside and "axial" in names):
