@@ -1,8 +1,8 @@
 """A NASTRAN deck as pyNastran reads it, solved by plane beam elements: statics, then modes.
 
-Three freedoms a grid: along x, along y, about z. Half of the mass at either grid; the axial force
-that stiffens the elements comes from the displacements of the static subcase alone. Nothing of
-antinode is used.
+Four freedoms a grid: along x, along y, about z, about x. Half of the mass at either grid; the axial
+force that stiffens the elements comes from the displacements of the static subcase alone. Nothing
+of antinode is used.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ from scipy.linalg import solve
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import eigsh
 
-DOF = {"1": 0, "2": 1, "6": 2}
+DOF = {"1": 0, "2": 1, "6": 2, "4": 3}
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
@@ -20,8 +20,8 @@ class Deck:
 
     def __init__(self, path):
         self.model = model = read_bdf(str(path), debug=None, xref=False)
-        self.index = {g: 3 * k for k, g in enumerate(sorted(model.nodes))}
-        size = 3 * len(self.index)
+        self.index = {g: 4 * k for k, g in enumerate(sorted(model.nodes))}
+        size = 4 * len(self.index)
         self.K, self.M = np.zeros((size, size)), np.zeros((size, size))
         self.links = {}
         for element in model.elements.values():
@@ -37,7 +37,7 @@ class Deck:
                     self.links[self.index[g] + DOF[c]] = self.index[rigid.gn] + DOF[c]
 
     def modes(self, number):
-        """omega^2 of bending and of longitudinal modes under the preload of a subcase [1/s^2]."""
+        """omega^2 of bending, longitudinal and torsion modes under a subcase's preload [1/s^2]."""
         settings = self.settings(number)
         K = self.K.copy()
         if "STATSUB" in settings:
@@ -47,8 +47,9 @@ class Deck:
                 if element.type == "CBAR":
                     self._stiffen(K, element, u)
         T = self._free(settings.get("SPC"))
-        family = np.argmax(T, axis=0) % 3 == 0
-        return [_lowest(T[:, own], K, self.M) for own in (~family, family)]
+        freedom = np.argmax(T, axis=0) % 4
+        families = (freedom == 1) | (freedom == 2), freedom == 0, freedom == 3
+        return [_lowest(T[:, own], K, self.M) for own in families if np.any(own)]
 
     def settings(self, number):
         case = self.model.subcases[number]
@@ -85,12 +86,14 @@ class Deck:
         assert np.allclose((b - a)[1:], 0)
         assert np.allclose(element.x, [0, 1, 0])
         ia, ib = self.index[element.ga], self.index[element.gb]
-        return (b - a)[0], [ia, ib], [ia + 1, ia + 2, ib + 1, ib + 2]
+        return (b - a)[0], np.array([ia, ib]), [ia + 1, ia + 2, ib + 1, ib + 2]
 
     def _bar(self, element):
         h, axial, bending = self._geometry(element)
         prop = self.model.properties[element.pid]
-        E = self.model.materials[prop.mid].e
+        material = self.model.materials[prop.mid]
+        E, twist = material.e, axial + 3
+        self.K[np.ix_(twist, twist)] += material.g * prop.j / h * np.array([[1, -1], [-1, 1]])
         k = E * prop.A / h
         self.K[np.ix_(axial, axial)] += k * np.array([[1, -1], [-1, 1]])
         self.K[np.ix_(bending, bending)] += E * prop.i1 * hermite(h)[0]
@@ -113,6 +116,7 @@ class Deck:
     def _mass(self, mass):
         i, d, m = self.index[mass.nid], mass.X[0], mass.mass
         self.M[i, i] += m
+        self.M[i + 3, i + 3] += mass.I[0]
         block = np.array([[m, m * d], [m * d, m * d * d + mass.I[5]]])
         self.M[i + 1 : i + 3, i + 1 : i + 3] += block
 

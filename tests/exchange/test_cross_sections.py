@@ -116,10 +116,17 @@ def test_sections_are_those_of_their_outlines(kind):
 
 
 def test_round_sections():
-    assert cross_section("ROD", [2.0]) == pytest.approx((4 * np.pi, 4 * np.pi, 4 * np.pi, 0))
+    assert cross_section("ROD", [2.0]) == pytest.approx((*[4 * np.pi] * 3, 0, 8 * np.pi))
     tube = np.pi * (0.1**2 - 0.09**2), np.pi / 4 * (0.1**4 - 0.09**4)
     for kind, dimensions in (("TUBE", [0.1, 0.09]), ("TUBE2", [0.1, 0.01])):
-        assert cross_section(kind, dimensions) == pytest.approx((*tube, tube[1], 0))
+        assert cross_section(kind, dimensions) == pytest.approx((*tube, tube[1], 0, 2 * tube[1]))
+
+
+def test_the_rectangle_in_torsion():
+    # square: Timoshenko and Goodier; 1:2 and 1:10 by their table of k1
+    for b, h, k in ((1, 1, 0.140577014955), (0.5, 1, 0.229), (2, 0.2, 0.312)):
+        J = cross_section("BAR", [b, h]).J
+        assert pytest.approx(k * max(b, h) * min(b, h) ** 3, rel=1e-11 if b == h else 2e-3) == J
 
 
 def test_every_type_is_held_to_something():

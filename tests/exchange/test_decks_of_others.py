@@ -111,7 +111,7 @@ def test_stations_of_a_pbeam_in_any_order_and_empty(stations, tmp_path):
     assert middle == pytest.approx(2.1e11 * 2.5e-7)
     assert beam.bending_stiffness[-1, 1] == pytest.approx(2.1e4)
     assert beam.mass_per_length[-1, 1] == pytest.approx(8.35)
-    assert any("shear (K1, K2)" in note and "torsion (J)" in note for note in notes)
+    assert any("shear (K1, K2)" in note for note in notes)
 
 
 def test_the_same_station_twice_and_one_outside(tmp_path):
@@ -271,6 +271,83 @@ def test_what_is_passed_over_is_listed(tmp_path):
     _, notes = read(tmp_path, GRIDS, BARS, PBAR, MAT1, CLAMP, cards)
     assert any("1 ASET1, 1 CORD2R, 2 DAREA, 1 SET1, 1 TABDMP1" in note for note in notes)
     assert any("condense" in note for note in notes)
+
+
+GJ, INERTIA = 2.1e11 / 2.6 * np.pi / 2 * (0.1**4 - 0.09**4), 7850 * np.pi / 2 * (0.1**4 - 0.09**4)
+TUBE = "PBARL,1,1,,TUBE\n,0.1,0.09\n"
+
+
+def torsion(beam, modes=3):
+    return solve_modes(beam, modes).frequencies_hz("torsion")
+
+
+class TestTorsion:
+    def test_a_tube_that_one_end_holds(self, tmp_path):
+        beam, notes = read(tmp_path, GRIDS, BARS, TUBE, MAT1, CLAMP)
+        np.testing.assert_allclose(beam.torsional_stiffness, GJ)
+        np.testing.assert_allclose(beam.polar_inertia_per_length, INERTIA)
+        assert (beam.ends.left_torsion, beam.ends.right_torsion) == ("fixed", "free")
+        wanted = (np.arange(3) + 0.5) * np.pi / 2 * np.sqrt(GJ / INERTIA) / (2 * np.pi)
+        assert torsion(beam) == pytest.approx(wanted, rel=1e-10)
+        assert not any("torsion" in note for note in notes)
+
+    def test_a_disc_on_a_spring(self, tmp_path):
+        cards = "CONM2,9,3,,4.\n,2.5+2,,.1,,,.2\nCELAS2,30,3.+6,3,4\nCBUSH,40,41,2\n"
+        cards += "PBUSH,41,K,,,,7.+3\n"
+        beam, _ = read(tmp_path, GRIDS, BARS, TUBE, MAT1, CLAMP, cards)
+        assert beam.attachments == (
+            PointMass(2.0, 4.0, 0.2, 0.0, 250.0),
+            Spring(2.0, torsional=3e6),
+            Spring(1.0, torsional=7e3),
+        )
+        beam, _ = read(tmp_path, GRIDS, BARS, TUBE, MAT1, CLAMP, cards.partition("CBUSH")[0])
+        omega = 2 * np.pi * torsion(beam, 1)[0]
+        b = omega * np.sqrt(INERTIA / GJ)
+        assert GJ * b / np.tan(2 * b) == pytest.approx(250 * omega**2 - 3e6, rel=1e-8)
+
+    def test_along_another_axis(self, tmp_path):
+        grids = "GRID,1\nGRID,2,,0.,0.,1.\nGRID,3,,0.,0.,2.\n"
+        disc = "CONM2,9,3,,4.\n,.1,,.1,,,25.\nSPC1,7,6,3\n"
+        beam, _ = read(tmp_path, grids, BARS, TUBE, MAT1, CLAMP, disc)
+        assert beam.attachments == (PointMass(2.0, 4.0, 0.1, 0.0, 25.0),)
+        assert beam.ends.right_torsion == "fixed"
+
+    def test_a_spring_and_a_support_on_an_arm(self, tmp_path):
+        arm = "GRID,9,,2.4,0.,.3\nRBE2,20,3,123456,9\nCELAS2,30,3.+6,9,4\nSPC1,7,4,9\n"
+        beam, _ = read(tmp_path, GRIDS, BARS, TUBE, MAT1, CLAMP, arm)
+        assert beam.attachments == (Spring(2.0, torsional=3e6),)
+        assert beam.ends.right_torsion == "fixed"
+
+    def test_the_inertia_of_mass_that_carries_nothing(self, tmp_path):
+        pbeam = PBEAM.format(",0.,0.,,,.25,.35\n")
+        beam, _ = read(tmp_path, GRIDS, BEAMS, pbeam, MAT1, CLAMP)
+        rho = 7850 * 7e-7
+        np.testing.assert_allclose(
+            beam.polar_inertia_per_length[0], [rho + 0.25, rho + 0.35], rtol=1e-12
+        )
+
+    @pytest.mark.parametrize(
+        ("old", "new", "why"),
+        [
+            ("GRID,1", "GRDSET,,,,,,,4\nGRID,1", "freedom 4 is held at every grid"),
+            ("SPC1,7,123456,1", "SPC1,7,123456,1\nSPC1,7,4,2,3", "freedom 4 is held at every"),
+            (TUBE, PBAR, "J, or G, is not known"),
+            (",,.3,", ",,,", "J, or G, is not known"),
+            (TUBE, "PBARL,1,1,,BOX\n,.05,.08,.006,.004\n", "J, or G, is not known"),
+            (".3,7850.\n", ".3\n", "rho (I1 + I2) is zero"),
+            ("CBAR,2,1,2,3", "GRID,4,,1.\nRBE2,20,2,1236,4\nCBAR,2,1,4,3", "of a joint"),
+        ],
+    )
+    def test_why_there_is_none(self, old, new, why, tmp_path):
+        text = GRIDS + BARS + TUBE.replace(".09\n", ".09,3.\n") + MAT1 + CLAMP
+        old = old.replace(".09\n", ".09,3.\n")
+        assert old in text
+        cards = "CELAS2,30,3.+6,3,4\n"
+        beam, notes = read(tmp_path, text.replace(old, new, 1), cards)
+        assert (beam.families, beam.attachments) == (("bending", "longitudinal"), ()) or "4" in new
+        assert beam.torsional_stiffness is None
+        assert beam.ends.left_torsion is None
+        assert any(why in note for note in notes), notes
 
 
 BUCKLING = """\

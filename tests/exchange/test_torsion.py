@@ -2,9 +2,12 @@
 
 import numpy as np
 import pytest
+from pyNastran.bdf.bdf import read_bdf
 
 from antinode import InputError, load_beam, solve_modes
 from antinode.cli.run import main
+from exchange.deck_solver import Deck
+from exchange.solvers import expected, needs_mystran, run_mystran, worst
 
 SHAFT = """\
 [beam]
@@ -76,11 +79,51 @@ def test_measured_torsion_modes_of_a_universal_file(shaft, tmp_path):
     assert found == pytest.approx(hertz(shaft)[:3], rel=2e-6)
 
 
-def test_a_deck_says_that_it_leaves_torsion_out(shaft, tmp_path, capsys):
-    convert(shaft, deck := tmp_path / "deck.bdf")
+@pytest.mark.parametrize("units", ["SI", "mm-t-s", "in-lbf-s"])
+def test_a_deck_there_and_back(shaft, units, tmp_path):
+    convert(shaft, deck := tmp_path / "deck.bdf", "--units", units)
+    convert(deck, target := tmp_path / "again.toml", "--units", units)
+    before, after = load_beam(shaft).beam(), load_beam(target).beam()
+    assert after.ends.of("torsion") == before.ends.of("torsion")
+    assert sum(getattr(item, "polar_inertia", 0) for item in after.attachments) == pytest.approx(3)
+    assert polar_inertia(after) == pytest.approx(polar_inertia(before), rel=1e-6)
+    assert hertz(target) == pytest.approx(hertz(shaft), rel=2e-4)
+
+
+def polar_inertia(beam):
+    """Of the shaft itself [kg m^2]."""
+    t = np.arange(0.005, 1, 0.01)
+    rows = [beam.column_at("polar_inertia_per_length", k, t) for k in range(len(beam.x) - 1)]
+    return np.sum(np.mean(rows, axis=1) * np.diff(beam.x))
+
+
+def test_another_reader_finds_torsion_in_a_deck(shaft, tmp_path):
+    convert(shaft, deck := tmp_path / "deck.bdf", "--modes", "3")
+    model = read_bdf(str(deck), debug=None)
+    beam = load_beam(shaft).beam()
+    bars = [model.elements[k] for k in sorted(model.elements) if model.elements[k].type == "CBAR"]
+    assert bars[0].G() * bars[0].J() == pytest.approx(beam.torsional_stiffness[0, 0], rel=2e-3)
+    assert bars[-1].G() * bars[-1].J() == pytest.approx(beam.torsional_stiffness[-1, 1], rel=2e-3)
+    rows = [row for row in expected(deck) if row[0].startswith("torsion")]
+    assert len(rows) == 3
+    assert worst(Deck(deck).modes(1)[2], rows) < 2e-6
+    assert np.sqrt([beam for _, _, beam in rows]) / (2 * np.pi) == pytest.approx(hertz(shaft)[:3])
+
+
+@needs_mystran
+def test_mystran_finds_torsion(shaft, tmp_path):
+    convert(shaft, deck := tmp_path / "deck.bdf", "--modes", "2")
+    assert worst(run_mystran(deck), expected(deck)) < 2e-6
+
+
+@pytest.mark.parametrize("options", [("deck.inp",), ("deck.bdf", "--analysis", "statsub")])
+def test_a_deck_says_that_it_leaves_torsion_out(shaft, options, tmp_path, capsys):
+    text = shaft.read_text().replace("[beam.ends]", "axial_force = [9, 9, 9]\n[beam.ends]")
+    shaft.write_text(text)
+    convert(shaft, deck := tmp_path / options[0], *options[1:])
     assert "torsion is left out" in capsys.readouterr().err + deck.read_text()
-    assert "$ bending 1" in deck.read_text()
-    assert "$ torsion 1" not in deck.read_text()
+    assert " bending 1" in deck.read_text()
+    assert " torsion 1" not in deck.read_text()
 
 
 @pytest.mark.parametrize(

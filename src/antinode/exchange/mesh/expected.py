@@ -44,8 +44,10 @@ class Expected:
     near: float | None = None
 
 
-def comparable(result: ModalResult, analysis: Analysis) -> tuple[ModalResult, tuple[str, ...]]:
-    """Return modes that plane elements can give, and what they leave out.
+def comparable(
+    result: ModalResult, analysis: Analysis, *, torsion: bool = False
+) -> tuple[ModalResult, tuple[str, ...]]:
+    """Return modes that a deck's elements can give, and what they leave out.
 
     Raises
     ------
@@ -59,8 +61,9 @@ def comparable(result: ModalResult, analysis: Analysis) -> tuple[ModalResult, tu
         notes.append(f"EA is not known: EI/(L/{1 / SLENDER:.0f})^2 stands for it")
     if beam.is_unloaded and analysis in ("statsub", "buckling"):
         raise InputError(f"--analysis {analysis}: the beam is under no axial force; choose modes")
-    in_plane = [name for name in result.families if set(FAMILIES[name].freedoms) <= {0, 1, 5}]
-    if len(in_plane) < len(result.families):
+    known = {0, 1, 3, 5} if torsion else {0, 1, 5}
+    kept = [name for name in result.families if set(FAMILIES[name].freedoms) <= known]
+    if len(kept) < len(result.families):
         notes.append("torsion is left out: the nodes of this mesh do not turn about x")
     offset = any(isinstance(item, PointMass) and item.offset for item in beam.attachments)
     if offset and beam.offset_weight and beam.axial_acceleration and analysis != "unloaded":
@@ -69,10 +72,10 @@ def comparable(result: ModalResult, analysis: Analysis) -> tuple[ModalResult, tu
     if analysis == "unloaded":
         beam = beam.without_axial_force()
     if beam is result.beam:
-        kept = tuple(mode for mode in result.modes if mode.family in in_plane)
-        return replace(result, modes=kept), tuple(notes)
+        modes = tuple(mode for mode in result.modes if mode.family in kept)
+        return replace(result, modes=modes), tuple(notes)
     number = max(mode.number for mode in result.modes)
-    options: dict[str, Any] = {"tolerance": result.tolerance, "families": in_plane}
+    options: dict[str, Any] = {"tolerance": result.tolerance, "families": kept}
     return solve_one(beam, number, **options), tuple(notes)
 
 

@@ -11,7 +11,7 @@ from scipy.sparse import coo_array, csc_array, eye_array
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from antinode.arrays import Array
-from antinode.beam.families import BENDING, FAMILIES, FamilyName
+from antinode.beam.families import BENDING, FAMILIES, LONGITUDINAL, TORSION, FamilyName
 
 from .elements import Kind, Matrices, bar, solid
 from .mesh import AXIAL, LATERAL, TURN, Mesh
@@ -63,6 +63,8 @@ def eigenvalues(
     loaded : bool
         Under N, or without.
     """
+    if name == TORSION:
+        return eigenvalues(mesh.as_bar(), kind, LONGITUDINAL, below, count, loaded=False)
     K, M, G = assembled(mesh, kind, strained=loaded).family(name)
     K = csc_array(K - G) if loaded else K
     count = min(count, K.shape[0] - 2)
@@ -134,7 +136,9 @@ def _masses(mesh: Mesh) -> list[tuple[Any, Array]]:
 def _springs(mesh: Mesh, right: dict[int, int]) -> list[tuple[Any, Array]]:
     """Return springs to the ground, and what gives way at joints."""
     parts: list[tuple[Any, Array]] = [
-        (np.array([3 * n + _COLUMN[f]]), np.array([[k]])) for n, f, k in mesh.springs
+        (np.array([3 * n + _COLUMN[f]]), np.array([[k]]))
+        for n, f, k in mesh.springs
+        if f in _COLUMN
     ]
     for node, freedom, compliance in _gaps(mesh):
         sides = np.array([3 * node, 3 * right[node]]) + _COLUMN[freedom]
@@ -144,7 +148,7 @@ def _springs(mesh: Mesh, right: dict[int, int]) -> list[tuple[Any, Array]]:
 
 def _gaps(mesh: Mesh) -> list[tuple[int, int, float]]:
     """Return node, freedom and compliance of what gives way at joints."""
-    rows = [(n, f, c) for n, own in mesh.joints.items() for f, c in own.items()]
+    rows = [(n, f, c) for n, own in mesh.joints.items() for f, c in own.items() if f in _COLUMN]
     return [row for row in rows if row[2]]
 
 
@@ -159,7 +163,7 @@ def _free(mesh: Mesh, right: dict[int, int], size: int) -> tuple[Any, NDArray[np
         for freedom, column in _COLUMN.items():
             if (node, freedom) not in open_:
                 leads[3 * point + column] = 3 * node + column
-    held = [3 * node + _COLUMN[freedom] for node, freedom in mesh.held]
+    held = [3 * node + _COLUMN[freedom] for node, freedom in mesh.held if freedom in _COLUMN]
     free = np.setdiff1d(np.flatnonzero(leads == np.arange(size)), held)
     tied = eye_array(size, format="csr")[leads]
     return csc_array(tied)[:, free], free % 3 == _COLUMN[AXIAL]

@@ -8,6 +8,7 @@ motion, so it holds sideways alone, or all.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
 
@@ -29,14 +30,18 @@ _ENDS: dict[tuple[bool, bool], End] = {
     (False, True): "sliding",
     (False, False): "free",
 }
-_FREEDOMS = ("axial", "lateral", "rotational")
+_FREEDOMS = ("axial", "lateral", "rotational", "torsional")
 
 
 def attachments_of(
-    model: Model, line: Line, modal: Subcase | None
+    model: Model, line: Line, modal: Subcase | None, lumps: Mapping[int, Card]
 ) -> tuple[list[Attachment], dict[int, set[str]]]:
-    """Return masses, springs and joints, and what the supports of the modes hold at each node."""
-    here = [card for card in model.masses if _is_here(model, line, card.integer(2), card)]
+    """Return masses, springs and joints, and what the supports of the modes hold at each node.
+
+    Lumps of the bars' polar inertia by grid are none of the masses.
+    """
+    own = [card for card in model.masses if lumps.get(card.integer(2)) is not card]
+    here = [card for card in own if _is_here(model, line, card.integer(2), card)]
     items: list[Attachment] = [_point_mass(model, line, card) for card in here]
     items += springs_of(model, line)
     items += joints_of(model, line)
@@ -52,7 +57,7 @@ def attachments_of(
 
 
 def held_by(model: Model, line: Line, chosen: int | None) -> dict[int, set[str]]:
-    """Return which of axial, lateral and rotational are held at each node."""
+    """Return which of axial, lateral, rotational and torsional are held at each node."""
     sets = set() if chosen is None else model.chosen_supports(chosen)
     given = [(g, grid.held, grid.card) for g, grid in model.grids.items() if grid.held]
     given += [(g, freedoms, card) for n, g, freedoms, card in model.supports if n in sets]
@@ -65,6 +70,8 @@ def held_by(model: Model, line: Line, chosen: int | None) -> dict[int, set[str]]
         if (seat := _seat(model, line, grid)) is None:
             continue
         names = _names(line, grid, freedoms_held, card)
+        if names == {"torsional"} and grid in line.right_grids:
+            continue
         if names:
             _check_side(line, grid, card)
             _check_arm(seat[1], names, card, all_held=set("123456") <= freedoms_held)
@@ -73,7 +80,7 @@ def held_by(model: Model, line: Line, chosen: int | None) -> dict[int, set[str]]
 
 
 def _names(line: Line, grid: int, freedoms: set[str], card: Card) -> set[str]:
-    """Return which of axial, lateral and rotational freedoms at a grid are."""
+    """Return which freedoms of the beam are among those of a grid."""
     if set("123456") <= freedoms:
         return set(_FREEDOMS)
     own = zip(_FREEDOMS, line.freedoms(grid, card), strict=True)
@@ -110,7 +117,9 @@ def _check_arm(arm: Array, names: set[str], card: Card, *, all_held: bool = Fals
     """Refuse what holds a grid beside the axis so that an arm becomes a lever."""
     size = max(float(np.max(np.abs(arm))), 1e-300)
     along, beside, normal = (abs(float(v)) > 1e-9 * size for v in arm)
-    if size <= 1e-12 or all_held or (names == set(_FREEDOMS) and not normal):
+    if names <= {"torsional"}:
+        return
+    if size <= 1e-12 or all_held or ({*_FREEDOMS[:3]} <= names and not normal):
         return
     if along or normal or (beside and "axial" in names):
         raise card.error(
@@ -122,13 +131,14 @@ def _check_arm(arm: Array, names: set[str], card: Card, *, all_held: bool = Fals
 def ends_of(held: dict[int, set[str]], last: int) -> Ends:
     """Return how node 0 and the last one are held."""
 
-    def of(node: int) -> tuple[End, AxialEnd]:
+    def of(node: int) -> tuple[End, AxialEnd, AxialEnd]:
         here = held.get(node, set())
         axial: AxialEnd = "fixed" if "axial" in here else "free"
-        return _ENDS["lateral" in here, "rotational" in here], axial
+        torsion: AxialEnd = "fixed" if "torsional" in here else "free"
+        return _ENDS["lateral" in here, "rotational" in here], axial, torsion
 
-    (left, left_axial), (right, right_axial) = of(0), of(last)
-    return Ends(left, right, left_axial, right_axial)
+    (left, left_axial, left_torsion), (right, right_axial, right_torsion) = of(0), of(last)
+    return Ends(left, right, left_axial, right_axial, left_torsion, right_torsion)
 
 
 def inner_supports(held: dict[int, set[str]], x: Array) -> list[Spring]:
@@ -136,7 +146,13 @@ def inner_supports(held: dict[int, set[str]], x: Array) -> list[Spring]:
     inner = [k for k in sorted(held) if 0 < k < len(x) - 1]
     stiff = {name: {k: math.inf if name in held[k] else 0.0 for k in inner} for name in _FREEDOMS}
     return [
-        Spring(float(x[k]), stiff["lateral"][k], stiff["rotational"][k], stiff["axial"][k])
+        Spring(
+            float(x[k]),
+            stiff["lateral"][k],
+            stiff["rotational"][k],
+            stiff["axial"][k],
+            stiff["torsional"][k],
+        )
         for k in inner
     ]
 
@@ -161,12 +177,14 @@ def _point_mass(model: Model, line: Line, card: Card) -> PointMass:
     tensor = np.array([[I[0], -I[1], -I[3]], [-I[1], I[2], -I[4]], [-I[3], -I[4], I[5]]])
     normal = axes @ line.frame[2]
     mass, factor = card.real(4), model.mass_factor
-    if not mass > 0:
+    if not mass > 0 and not (mass == 0 and any(I)):
         raise card.error(f"field 4 is {mass:g}; a mass must be positive")
-    inertia = float(normal @ tensor @ normal) * factor
-    if inertia < 0:
-        raise card.error(f"its moment of inertia is {inertia:g}; it must not be negative")
-    return PointMass(x, mass * factor, inertia, float(centre[0]))
+    turning, polar = (float(v @ tensor @ v) * factor for v in (normal, axes @ line.frame[0]))
+    if min(turning, polar) < 0:
+        raise card.error(
+            f"its moment of inertia is {min(turning, polar):g}; it must not be negative"
+        )
+    return PointMass(x, mass * factor, turning, float(centre[0]), polar)
 
 
 def _mass_frame(model: Model, grid: int, card: Card) -> tuple[Array, Array]:
@@ -247,7 +265,8 @@ def _spring(model: Model, line: Line, spring: Elastic) -> Spring | None:
         return None
     name, k = own[freedom], spring.k
     _check_arm(arm, {name}, card)
-    return Spring(x, k * (name == "lateral"), k * (name == "rotational"), k * (name == "axial"))
+    along, sideways, turning, twisting = (k * (name == own) for own in _FREEDOMS)
+    return Spring(x, sideways, turning, along, twisting)
 
 
 def joints_of(model: Model, line: Line) -> list[Joint]:
@@ -258,7 +277,7 @@ def joints_of(model: Model, line: Line) -> list[Joint]:
         if left == right:
             continue
         rigid = linked(model, left, right) + linked(model, right, left)
-        axial, lateral, rotational = line.freedoms(right, b.card)
+        axial, lateral, rotational, torsional = line.freedoms(right, b.card)
         if str(lateral) not in rigid:
             raise b.card.error(f"grids {left} and {right} are not linked in freedom {lateral}")
         found.append(
@@ -266,14 +285,16 @@ def joints_of(model: Model, line: Line) -> list[Joint]:
                 float(line.x[line.node[left]]),
                 _compliance(model, line, (left, right), rotational, rigid, b.card),
                 _compliance(model, line, (left, right), axial, rigid, b.card),
+                _compliance(model, line, (left, right), torsional, rigid, None),
             )
         )
     return found
 
 
 def _compliance(
-    model: Model, line: Line, grids: tuple[int, int], freedom: int, rigid: str, card: Card
+    model: Model, line: Line, grids: tuple[int, int], freedom: int, rigid: str, card: Card | None
 ) -> float:
+    """Return the compliance in a freedom; infinite where nothing joins it and no card says so."""
     if str(freedom) in rigid:
         return 0.0
     k = sum(
@@ -281,6 +302,8 @@ def _compliance(
         for spring in model.springs
         if is_joint(line, spring) and {(g, freedom) for g in grids} == set(spring.ends)
     )
-    if not k > 0:
+    if not k > 0 and card is None:
+        return math.inf
+    if not k > 0 and card:
         raise card.error(f"grids {grids[0]} and {grids[1]} are not joined in freedom {freedom}")
     return 1 / k

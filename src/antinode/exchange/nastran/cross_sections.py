@@ -16,12 +16,13 @@ import numpy as np
 
 
 class CrossSection(NamedTuple):
-    """Area and second moments about the neutral axes, in units of the dimensions."""
+    """Area, second moments about the neutral axes, and constant of torsion; J is 0 if not known."""
 
     A: float
     I1: float
     I2: float
     I12: float
+    J: float = 0.0
 
 
 class Rectangle(NamedTuple):
@@ -34,6 +35,8 @@ class Rectangle(NamedTuple):
     sign: int = 1
 
 
+_ZETA_5 = 1.0369277551433699
+"""Sum of 1/n^5, of which the odd n make up 31/32."""
 Shape = Callable[..., list[Rectangle]]
 
 
@@ -57,8 +60,19 @@ def cross_section(kind: str, dimensions: Sequence[float]) -> CrossSection:
         if not 0 <= inner < outer:
             raise ValueError("its radii do not fit together")
         inertia = math.pi / 4 * (outer**4 - inner**4)
-        return CrossSection(math.pi * (outer**2 - inner**2), inertia, inertia, 0.0)
+        return CrossSection(math.pi * (outer**2 - inner**2), inertia, inertia, 0.0, 2 * inertia)
+    if kind == "BAR" and min(d) > 0:
+        return _sum(_bar(*d))._replace(J=_rectangle_in_torsion(*d))
     return _hexagon(*d) if kind == "HEXA" else _sum(_RECTANGLES[kind](*d))
+
+
+def _rectangle_in_torsion(d1: float, d2: float) -> float:
+    """Return J of a rectangle (Timoshenko and Goodier, Theory of Elasticity, equation 160)."""
+    a, b = max(d1, d2), min(d1, d2)
+    n = np.arange(1, 20, 2)
+    rest = 2 / (np.exp(n * math.pi * a / b) + 1) / n**5
+    series = 31 / 32 * _ZETA_5 - float(np.sum(rest))
+    return a * b**3 / 3 * (1 - 192 / math.pi**5 * b / a * series)
 
 
 def _sum(parts: list[Rectangle]) -> CrossSection:

@@ -53,8 +53,8 @@ class Line:
     frame: Array
     grids: Mapping[int, Grid]
 
-    def freedoms(self, grid: int, card: Card) -> tuple[int, int, int]:
-        """Return the numbers of axial, lateral and rotational freedom at a grid, if it has them."""
+    def freedoms(self, grid: int, card: Card) -> tuple[int, int, int, int]:
+        """Return the numbers of axial, lateral, rotational and torsional freedom at a grid."""
         shares = np.abs(self.frame @ self.grids[grid].axes.T)
         if np.any(np.sort(shares, axis=1)[:, :2] > SAME):
             raise card.error(
@@ -62,7 +62,7 @@ class Line:
                 "freedoms cannot be told apart: turn the model"
             )
         axis, lateral, normal = (int(np.argmax(row)) for row in shares)
-        return axis + 1, lateral + 1, normal + 4
+        return axis + 1, lateral + 1, normal + 4, axis + 4
 
 
 def line_of(model: Model, plane: int) -> Line:

@@ -325,8 +325,8 @@ def _mat1(model: Model, card: Card) -> None:
     E, G, nu = (card.real(i) if card.text(i) else None for i in (2, 3, 4))
     if E is None and G is not None and nu is not None:
         E = 2 * (1 + nu) * G
-    if G is None and E is not None:
-        G = E / (2 * (1 + (nu or 0.0)))
+    if G is None and E is not None and nu is not None:
+        G = E / (2 * (1 + nu))
     if E is None:
         raise card.error("it gives no E; fill in field 2")
     model.materials[number] = Material(E, G or 0.0, card.real(5, 0.0))

@@ -1,13 +1,14 @@
 """A beam from a NASTRAN deck: elements along one line, its masses, springs, joints and preload.
 
 The beam bends in plane 1 of its elements (I1) or in plane 2 (I2). Supports and springs count in
-this plane and along the axis.
+this plane, along the axis, and about it.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from .line import Line, line_of
 from .model import Model, passed_notes, read_model
 from .preload import preloaded, subcases_of
 from .properties import notes_of, tables_of
+from .torsion import GJ, INERTIA, lumps_of, missing, spread, without
 
 
 def read_nastran(
@@ -56,29 +58,45 @@ def read_nastran(
     model = read_model(deck, elements)
     line = line_of(model, plane)
     modal, static = subcases_of(deck)
-    tables, x = tables_of(model, line, plane)
-    attachments, held = attachments_of(model, line, modal)
-    tapered = any(np.any(t[:, 0] != t[:, 1]) for t in tables.values())
-    tables = {name: table / _unit(name, system) for name, table in tables.items()}
-    beam = Beam(
-        x / system.length,
-        tables["mass_per_length"],
-        tables["bending_stiffness"],
-        tables.get("axial_stiffness"),
-        ends=ends_of(held, len(line.x) - 1),
-        interpolation="linear" if tapered else "step",
-        name=path.stem[:200] or "beam",
-    )
-    supports = inner_supports(held, line.x)
-    items = [_in_si(item, system) for item in (*attachments, *supports)]
-    beam = beam.with_attachments(*items)
+    beam, no_torsion = _beam(model, line, modal, plane, system)
+    beam = replace(beam, name=path.stem[:200] or "beam")
     if static:
         beam = preloaded(beam, model, line, static, system)
     strings = axial_force_of_strings(model, line)
     if np.any(strings):
         beam = _under(beam, line, strings, system)
-    notes = (*_notes(model, modal, static, system), *notes_of(model, line), *passed_notes(model))
+    notes = (
+        *_notes(model, modal, static, system),
+        *notes_of(model, line, no_torsion),
+        *passed_notes(model),
+    )
     return beam, notes
+
+
+def _beam(
+    model: Model, line: Line, modal: Subcase | None, plane: int, system: System
+) -> tuple[Beam, str | None]:
+    """Return the beam without axial force, and why it has no torsion, if it has none."""
+    tables, x = tables_of(model, line, plane)
+    lumps = lumps_of(model, line, tables)
+    if lumps:
+        tables[INERTIA] = spread(line, lumps, x) * model.mass_factor
+    items, held = attachments_of(model, line, modal, lumps)
+    no_torsion = missing(line, tables, held, items)
+    if no_torsion:
+        tables = {name: tables[name] for name in tables if name not in (GJ, INERTIA)}
+        held, items = without(held, items)
+    ends = ends_of(held, len(line.x) - 1)
+    tapered = any(np.any(t[:, 0] != t[:, 1]) for t in tables.values())
+    columns: dict[str, Any] = {n: table / _unit(n, system) for n, table in tables.items()}
+    beam = Beam(
+        x / system.length,
+        ends=replace(ends, left_torsion=None, right_torsion=None) if no_torsion else ends,
+        interpolation="linear" if tapered else "step",
+        **columns,
+    )
+    own = (_in_si(item, system) for item in (*items, *inner_supports(held, line.x)))
+    return beam.with_attachments(*own), no_torsion
 
 
 def _under(beam: Beam, line: Line, strings: Array, system: System) -> Beam:
@@ -94,6 +112,8 @@ def _unit(name: str, system: System) -> float:
         "mass_per_length": system.mass / system.length,
         "bending_stiffness": system.force * system.length**2,
         "axial_stiffness": system.force,
+        GJ: system.force * system.length**2,
+        INERTIA: system.mass * system.length,
     }[name]
 
 
@@ -101,13 +121,15 @@ def _in_si(item: Attachment, system: System) -> Attachment:
     length, mass, force = system.length, system.mass, system.force
     x = item.x / length
     if isinstance(item, PointMass):
-        inertia = item.rotary_inertia / (mass * length**2)
-        return PointMass(x, item.mass / mass, inertia, item.offset / length)
+        square = mass * length**2
+        turning, polar = item.rotary_inertia / square, item.polar_inertia / square
+        return PointMass(x, item.mass / mass, turning, item.offset / length, polar)
     if isinstance(item, Spring):
         k = length / force
-        turning = item.rotational / (force * length)
-        return Spring(x, item.translational * k, turning, item.axial * k)
-    return Joint(x, item.rotational * force * length, item.axial * force / length)
+        turning, twisting = (v / (force * length) for v in (item.rotational, item.torsional))
+        return Spring(x, item.translational * k, turning, item.axial * k, twisting)
+    turning, twisting = (v * force * length for v in (item.rotational, item.torsional))
+    return Joint(x, turning, item.axial * force / length, twisting)
 
 
 def _notes(

@@ -17,8 +17,8 @@ from antinode.text import nearest, short
 from .cards import Card
 from .cross_sections import DIMENSIONS, cross_section
 
-COLUMNS = ("A", "I1", "I2", "I12", "J", "NSM")
-"""Of a section at a station; NSM is mass per length that carries nothing."""
+COLUMNS = ("A", "I1", "I2", "I12", "J", "NSM", "NSI")
+"""Of a section at a station; NSM is mass per length that carries nothing, NSI its polar inertia."""
 _SYMMETRIC = ("ROD", "TUBE", "TUBE2", "BAR", "BOX", "I1", "CROSS", "H", "Z", "HEXA")
 
 
@@ -120,6 +120,9 @@ def _pbeam(card: Card) -> Section:
         }
         place += 16 if card.text(place).upper() == "YES" else 8
     fractions, columns = _filled(ends)
+    nsi = card.real(place + 4, 0.0)
+    columns["NSI"] = nsi + (card.real(place + 5, nsi) - nsi) * fractions
+    _check_mass_on_axis(card, place + 8, columns)
     return Section(
         card.integer(2),
         fractions,
@@ -127,7 +130,6 @@ def _pbeam(card: Card) -> Section:
         card,
         (card.real(place, 1.0), card.real(place + 1, 1.0)),
         _neutral(card, place + 12),
-        _left_out(card, place, columns),
     )
 
 
@@ -172,16 +174,13 @@ def _neutral(card: Card, place: int) -> Array:
     return np.array(start)
 
 
-def _left_out(card: Card, place: int, columns: dict[str, Array]) -> tuple[str, ...]:
-    """Refuse mass beside the neutral axis; say that its moment of inertia is left out."""
-    offset = [card.real(place + i, 0.0) for i in range(8, 12)]
-    if any(offset) and np.any(columns["NSM"]):
+def _check_mass_on_axis(card: Card, place: int, columns: dict[str, Array]) -> None:
+    """Refuse mass beside the neutral axis."""
+    if any(card.real(place + i, 0.0) for i in range(4)) and np.any(columns["NSM"]):
         raise card.error(
-            f"NSM stands beside the axis (M1, M2 from field {place + 8} on), which couples bending "
+            f"NSM stands beside the axis (M1, M2 from field {place} on), which couples bending "
             "and torsion; only mass on the axis is read"
         )
-    inertia = any(card.real(place + i, 0.0) for i in (4, 5))
-    return ("the moment of inertia of mass per length (NSI), which turns in torsion",) * inertia
 
 
 def _pbeaml(card: Card) -> Section:

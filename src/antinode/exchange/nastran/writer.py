@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from antinode.beam.families import TORSION
 from antinode.exchange.mesh.analyses import Analysis
 from antinode.exchange.mesh.elements import Kind
 from antinode.exchange.mesh.expected import (
@@ -24,7 +25,7 @@ from antinode.exchange.mesh.expected import (
     expected_modes,
     header,
 )
-from antinode.exchange.mesh.mesh import AXIAL, LATERAL, TURN, Mesh, mesh_of
+from antinode.exchange.mesh.mesh import AXIAL, LATERAL, TURN, TWIST, Mesh, mesh_of
 from antinode.exchange.units import SI, System
 from antinode.modes.result import ModalResult
 from antinode.version import __version__
@@ -33,10 +34,11 @@ from .cards import card_text
 
 ELEMENTS = 200
 """Fewest elements of a beam."""
-MODULUS = 2.1e11
-"""E of MAT1 [Pa]; A and I follow from it."""
+MODULUS, POISSON = 2.1e11, 0.3
+"""E [Pa] and nu of MAT1; A, I and J follow from them."""
+_TWISTING: tuple[Analysis, ...] = ("modes", "unloaded")
 _STATIC, _MODAL, _LOAD, _METHOD, _MATERIAL = 1, 2, 1, 10, 1
-_RIGHT, _GROUND, _STRING = 1_000_000, 2_000_000, 3_000_000
+_RIGHT, _GROUND, _STRING, _LUMP = 1_000_000, 2_000_000, 3_000_000, 5_000_000
 _KINDS: dict[Analysis, Kind] = {
     "modes": "bars by strings", "unloaded": "bars", "statsub": "bars", "buckling": "bars",
 }  # fmt: skip
@@ -59,7 +61,7 @@ def write_nastran(
     tuple of str
         What the deck does not hold exactly.
     """
-    result, notes = comparable(result, analysis)
+    result, notes = comparable(result, analysis, torsion=analysis in _TWISTING)
     text = nastran_text(result, system, notes, analysis)
     path.write_text(text, encoding="ascii", errors="replace")
     return (f"NASTRAN has no units: these are {system.words}", *notes)
@@ -73,7 +75,9 @@ def nastran_text(
 ) -> str:
     """Return the deck as text."""
     beam = result.beam
-    mesh = mesh_of(beam, max(ELEMENTS, 20 * max((mode.number for mode in result.modes), default=1)))
+    count = max(ELEMENTS, 20 * max((mode.number for mode in result.modes), default=1))
+    twists = analysis in _TWISTING and any(mode.family == TORSION for mode in result.modes)
+    mesh = mesh_of(beam, count, twists=twists)
     kind = _KINDS[analysis]
     if analysis == "buckling":
         expected = expected_buckling(beam, mesh, kind)
@@ -84,7 +88,7 @@ def nastran_text(
         card_text("PARAM", "COUPMASS", -1),
         card_text("PARAM", "GRDPNT", 0),
         card_text("EIGRL", _METHOD, None, None, expected.asked, None, None, expected.near),
-        card_text("MAT1", _MATERIAL, MODULUS * system.force / system.length**2, None, 0.3),
+        card_text("MAT1", _MATERIAL, MODULUS * system.force / system.length**2, None, POISSON),
         *_line(mesh, system),
         *_attachments(mesh, system, axial=analysis != "buckling"),
         *_supports(mesh, analysis),
@@ -97,10 +101,12 @@ def _comments(
     mesh: Mesh, system: System, notes: tuple[str, ...], expected: Expected
 ) -> Iterator[str]:
     title = "".join(c if c.isprintable() else " " for c in mesh.beam.name)[:60]
-    own = (
+    own: tuple[str, ...] = (
         f"Units: {system.words}. NASTRAN itself has none.",
         f"Mesh: {mesh.count} CBAR without shear, along x, bending in the plane x-y, lumped mass",
     )
+    if mesh.twists:
+        own += ("Polar inertia, which a CBAR has not of itself: massless CONM2 at every grid",)
     lines = [*header(title, notes, expected, __version__)]
     yield from (f"$ {line}" for line in (lines[0], *own, *lines[1:]))
 
@@ -127,17 +133,19 @@ def _line(mesh: Mesh, system: System) -> Iterator[str]:
     """Yield grids, elements and their properties, each property once; a joint has two grids."""
     places = [(k + 1, x) for k, x in enumerate(mesh.x)]
     places += [(_RIGHT + k + 1, mesh.x[k]) for k in mesh.joints]
+    held = "35" if mesh.twists else "345"
     for number, x in places:
-        yield card_text("GRID", number, None, float(x * system.length), 0.0, 0.0, None, "345")
-    numbers: dict[tuple[float, ...], int] = {}
+        yield card_text("GRID", number, None, float(x * system.length), 0.0, 0.0, None, held)
+    shear, numbers = MODULUS / (2 * (1 + POISSON)), dict[tuple[float, ...], int]()
     for k in range(mesh.count):
         area = float(mesh.EA[k] / MODULUS * system.length**2)
         inertia = float(mesh.EI[k] / MODULUS * system.length**4)
         mass = float(mesh.mass[k] * system.mass / system.length)
-        number = numbers.setdefault((area, inertia, mass), len(numbers) + 1)
+        J = 2 * inertia if mesh.GJ is None else float(mesh.GJ[k] / shear * system.length**4)
+        number = numbers.setdefault((area, inertia, J, mass), len(numbers) + 1)
         yield card_text("CBAR", k + 1, number, *_grids(mesh, k), 0.0, 1.0, 0.0)
-    for (area, inertia, mass), number in numbers.items():
-        yield card_text("PBAR", number, _MATERIAL, area, inertia, inertia, 2 * inertia, mass)
+    for (area, inertia, J, mass), number in numbers.items():
+        yield card_text("PBAR", number, _MATERIAL, area, inertia, inertia, J, mass)
 
 
 def _grids(mesh: Mesh, k: int) -> tuple[int, int]:
@@ -147,10 +155,15 @@ def _grids(mesh: Mesh, k: int) -> tuple[int, int]:
 
 def _attachments(mesh: Mesh, system: System, *, axial: bool) -> Iterator[str]:
     """Yield masses, springs and joints; without axial springs where N is to pass them by."""
+    yield from _lumps(mesh, system)
     for row, (node, item) in enumerate(mesh.masses):
-        inertia = item.rotary_inertia * system.mass * system.length**2
+        square = system.mass * system.length**2
+        about = (
+            float(item.polar_inertia * square * mesh.twists),
+            float(item.rotary_inertia * square),
+        )
         cells = (item.mass * system.mass, item.offset * system.length, 0.0, 0.0)
-        own = (*map(float, cells), None, *_inertias(float(inertia)))
+        own = (*map(float, cells), None, *_inertias(*about))
         yield card_text("CONM2", _GROUND + row + 1, node + 1, None, *own)
     springs = [spring for spring in mesh.springs if axial or spring[1] != AXIAL]
     for node in sorted({node for node, _, _ in springs}):
@@ -164,26 +177,45 @@ def _attachments(mesh: Mesh, system: System, *, axial: bool) -> Iterator[str]:
         yield from _joint(mesh, node, system)
 
 
-def _inertias(about_z: float) -> tuple[float | None, ...]:
+def _lumps(mesh: Mesh, system: System) -> Iterator[str]:
+    """Yield the polar inertia of the elements, half of it at either grid."""
+    if not mesh.twists:
+        return
+    left, right = (own * system.mass * system.length**2 for own in mesh.lumps)
+    parts = [(k + 1, left[k] + (k not in mesh.joints) * right[k]) for k in range(mesh.count + 1)]
+    parts += [(_RIGHT + k + 1, right[k]) for k in mesh.joints]
+    for row, (grid, inertia) in enumerate(parts):
+        cells = 0.0, None, None, None, None, *_inertias(float(inertia), 0.0)
+        yield card_text("CONM2", _LUMP + row + 1, grid, None, *cells)
+
+
+def _inertias(about_x: float, about_z: float) -> tuple[float | None, ...]:
     """Return the six moments of inertia of a CONM2; none that is zero."""
-    return (None, None, None, None, None, about_z) if about_z else ()
+    own = (about_x or None, None, None, None, None, about_z or None)
+    return own[: 6 if about_z else 1 if about_x else 0]
 
 
 def _stiffness_unit(freedom: int, system: System) -> float:
     """Return how many units make up an SI unit of the stiffness in a freedom."""
-    return system.force * system.length if freedom == TURN else system.force / system.length
+    return (
+        system.force * system.length if freedom in (TURN, TWIST) else system.force / system.length
+    )
 
 
 def _joint(mesh: Mesh, node: int, system: System) -> Iterator[str]:
     """Yield what links the two grids of a joint: springs where it gives way, else a rigid link."""
     compliance, left, right = mesh.joints[node], node + 1, _RIGHT + node + 1
-    rigid = "".join(str(f) for f in (AXIAL, LATERAL, TURN) if not compliance.get(f))
+    rigid = "".join(str(f) for f in _freedoms(mesh) if not compliance.get(f))
     number = 4_000_000 + 10 * node
     yield card_text("RBE2", number, left, rigid, right)
     for freedom, c in compliance.items():
         if c:
             stiffness = float(_stiffness_unit(freedom, system) / c)
             yield card_text("CELAS2", number + freedom, stiffness, left, freedom, right, freedom)
+
+
+def _freedoms(mesh: Mesh) -> tuple[int, ...]:
+    return (AXIAL, LATERAL, TWIST, TURN) if mesh.twists else (AXIAL, LATERAL, TURN)
 
 
 def _supports(mesh: Mesh, analysis: Analysis) -> Iterator[str]:
