@@ -1,4 +1,4 @@
-"""Elastic modes beside the rigid one at omega^2 = 0: a translating beam exactly at a buckling load."""
+"""Elastic modes beside the rigid one at omega^2 = 0: a translating beam just at buckling."""
 
 import mpmath
 import numpy as np
