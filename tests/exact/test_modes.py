@@ -62,7 +62,7 @@ def test_node_counts_of_free_beams(seed):
 def test_conventions_of_scale_and_sign():
     beam = random_beam(1)
     for mode in solve_modes(beam, 6).modes:
-        assert np.max(np.abs(mode.shape)) == pytest.approx(1.0, rel=1e-12)
+        assert 0.998 < np.max(np.abs(mode.shape)) <= 1.0 + 1e-12  # the peak lies between places
         assert mode.shape[0] > 0  # a free end is the first extremum from the nose
     clamped = solve_modes(random_beam(1, ends=("clamped", "free")), 6)
     for mode in clamped.family("bending"):

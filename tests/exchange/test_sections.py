@@ -111,7 +111,8 @@ def test_rotary_and_axial_columns_of_a_tower(tower):
         found = read_beam(tower, "sections", Choices(plane=plane, length=80.0))
         np.testing.assert_allclose(found.beam.radius_of_gyration, r)
         np.testing.assert_allclose(found.beam.axial_stiffness, [[6e10, 3e10]])
-        assert any("twgjstif" in note for note in found.notes)
+        np.testing.assert_allclose(found.beam.torsional_stiffness, [[3e11, 1e11]])
+        np.testing.assert_allclose(found.beam.polar_inertia_per_length, [[3e5, 1.5e5]])
     tower.write_text("2 NTwInpSt\n" + head + units + rows.replace("5e4", "0"))
     found = read_beam(tower, "sections", Choices(length=80.0))
     assert found.beam.radius_of_gyration is None

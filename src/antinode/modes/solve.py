@@ -92,11 +92,7 @@ def solve_modes(
     solver = solver_of(method, choose(backend))
     beam = problem if isinstance(problem, Beam) else problem.beam()
     chosen = beam.families if families is None else _chosen(families)
-    result = _solve_families(beam, chosen, modes, tolerance, solver, method, normalisation)
-    if unloaded:
-        compared = _compare_unloaded(solver.counting, beam, list(result.modes), modes, tolerance)
-        return replace(result, modes=tuple(compared))
-    return result
+    return _solve_families(beam, chosen, modes, tolerance, solver, method, normalisation, unloaded)
 
 
 def _solve_families(
@@ -107,6 +103,7 @@ def _solve_families(
     solver: Solver,
     method: Method,
     normalisation: Normalisation,
+    unloaded: bool,
 ) -> ModalResult:
     """Solve family after family, and gather what was found."""
     grid = output_grid(beam, modes)
@@ -122,6 +119,8 @@ def _solve_families(
         found += named
         segments[family] = len(solved.chain.length)
         warnings += solved.warnings
+    if unloaded:
+        found = _compare_unloaded(solver.counting, beam, found, modes, tolerance)
     if not all(np.isfinite(mode.omega2) for mode in found):
         raise ComputationError("a frequency is no finite number; check the units of the input")
     warnings += result_warnings(beam, found)

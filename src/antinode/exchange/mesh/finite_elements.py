@@ -11,12 +11,13 @@ from scipy.sparse import coo_array, csc_array, eye_array
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from antinode.arrays import Array
-from antinode.beam.families import BENDING, FAMILIES, LONGITUDINAL, TORSION, FamilyName
+from antinode.beam.families import BENDING, FAMILIES, LONGITUDINAL, FamilyName
 
 from .elements import Kind, Matrices, bar, solid
 from .mesh import AXIAL, LATERAL, TURN, Mesh
 
 _COLUMN = {AXIAL: 0, LATERAL: 1, TURN: 2}
+_TWIST = 3  # the freedom about the axis, which a plane mesh has not: a bar stands for it
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ def eigenvalues(
     loaded : bool
         Under N, or without.
     """
-    if name == TORSION:
+    if _TWIST in FAMILIES[name].freedoms:
         return eigenvalues(mesh.as_bar(), kind, LONGITUDINAL, below, count, loaded=False)
     K, M, G = assembled(mesh, kind, strained=loaded).family(name)
     K = csc_array(K - G) if loaded else K

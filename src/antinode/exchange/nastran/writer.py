@@ -76,7 +76,7 @@ def nastran_text(
     """Return the deck as text."""
     beam = result.beam
     count = max(ELEMENTS, 20 * max((mode.number for mode in result.modes), default=1))
-    twists = analysis in _TWISTING and any(mode.family == TORSION for mode in result.modes)
+    twists = analysis in _TWISTING and bool(result.family(TORSION))
     mesh = mesh_of(beam, count, twists=twists)
     kind = _KINDS[analysis]
     if analysis == "buckling":

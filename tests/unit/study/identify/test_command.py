@@ -142,7 +142,7 @@ IN_FILE = {
 }  # fmt: skip
 IN_TABLE = {
     "unknown column": ("mass_state", "mas_state", ["mas_state", "mass_state"]),
-    "unknown family": ("bending:2", "torsion:2", ["torsion:2", "bending:1"]),
+    "unknown family": ("bending:2", "twist:2", ["twist:2", "bending:1"]),
     "mode 0": ("bending:2", "bending:0", ["bending:0", "from 1"]),
     "mode without a number": ("bending:2", "bending:two", ["bending:two", "from 1"]),
     "column twice": ("bending:2", "bending:1", ["bending:1", "twice"]),
