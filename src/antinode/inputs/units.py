@@ -114,11 +114,17 @@ def unit_factor(written: str, unit: str) -> float:
             float(registry.Quantity(value, parsed).to(unit or "dimensionless").magnitude)
             for value in (0.0, 1.0)
         )
+        base = dict(registry.Quantity(1.0, parsed).to_base_units().unit_items())
+        angle = float(str(base.get("radian", 0)))
     except Exception as error:  # pint raises tokenizer, attribute and dimension errors of its own
         raise ValueError(wrong) from error
     if zero != 0 or not math.isfinite(factor) or factor <= 0:  # degC, dB
         raise ValueError(wrong)
-    return factor
+    if angle <= 0 or "rad" in unit:
+        return factor
+    if unit == "Hz":  # rad/s, rpm: pint takes a radian for 1, but a cycle has 2 pi
+        return factor / (2 * math.pi)
+    raise ValueError(wrong)
 
 
 def _known_factor(written: str, unit: str) -> float | None:

@@ -29,6 +29,10 @@ class Sample(Frozen):
         (3, "m", 3.0),
         ("10 deg", "rad", math.radians(10)),
         ("50 kN", "N", 5e4),
+        ("630 rpm", "Hz", 10.5),
+        ("66 rad/s", "Hz", 66 / (2 * math.pi)),
+        ("360 deg/s", "Hz", 1.0),
+        ("120 1/min", "Hz", 2.0),
         ("9.5 GN", "N", 9.5e9),
         ("1.5 kN m^2", "N m^2", 1500.0),
         ("1.5 kN·m²", "N m^2", 1500.0),
@@ -159,3 +163,9 @@ def test_a_copy_forgets_what_followed_from_the_old_values():
     assert one.twice == 2
     assert one.model_copy(update={"length": 3.0}).twice == 6
     assert one.twice == 2
+
+
+@pytest.mark.parametrize(("text", "unit"), [("50 deg", ""), ("80 rad m/s", "m/s"), ("5 rad", "m")])
+def test_an_angle_is_no_number_of_another_unit(text, unit):
+    with pytest.raises(ValueError, match="pure number" if not unit else "no unit of"):
+        to_si(text, unit)
