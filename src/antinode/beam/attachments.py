@@ -92,6 +92,33 @@ class Joint:
 Attachment = PointMass | Spring | Joint
 
 
+def check_no_side(items: Iterable[Attachment]) -> None:
+    """Refuse what moves with the left side of a joint at its station."""
+    items = tuple(items)
+    for joint in (item for item in items if isinstance(item, Joint)):
+        for item in items:
+            if item.x == joint.x and _moves_with_a_side(joint, item):
+                raise InputError(
+                    f"at x = {joint.x:g} m a mass or spring stands on the left of a joint; "
+                    "reversed it would stand on its right: move it by a small distance"
+                )
+
+
+def _moves_with_a_side(joint: Joint, item: Attachment) -> bool:
+    """Tell whether what a joint parts - turn, axial motion, twist - moves a mass or spring."""
+    if isinstance(item, PointMass):
+        turns, twists = item.offset != 0.0 or item.rotary_inertia > 0.0, item.polar_inertia > 0.0
+        along = item.mass > 0.0
+    elif isinstance(item, Spring):
+        turns, twists, along = item.rotational > 0.0, item.torsional > 0.0, item.axial > 0.0
+    else:
+        return False
+    parted = zip(
+        (joint.rotational, joint.axial, joint.torsional), (turns, along, twists), strict=True
+    )
+    return any(compliance > 0.0 and moves for compliance, moves in parted)
+
+
 def on_beam(place: float, x: Array) -> float:
     """Return the end of the beam where a place misses it by rounding, else the place itself [m]."""
     for end in (float(x[0]), float(x[-1])):

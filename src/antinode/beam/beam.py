@@ -30,6 +30,7 @@ from .attachments import (
     Joint,
     PointMass,
     check_attachments,
+    check_no_side,
     gather,
     on_beam,
 )
@@ -279,9 +280,17 @@ class Beam(ByValue):
         return replace(self, axial_force=np.zeros_like(self.axial_force), axial_acceleration=0.0)
 
     def reversed(self) -> Beam:
-        """Return the beam read from the other end (acceleration becomes part of the table)."""
+        """Return the beam read from the other end.
+
+        Raises
+        ------
+        InputError
+            If it accelerates, or a mass or spring moves with the left side of a joint: read from
+            the other end it would stand on the right, where nothing can.
+        """
         if self.axial_acceleration:
             raise InputError("a beam under acceleration cannot be reversed: tabulate N(x) instead")
+        check_no_side(self.attachments)
         flip: dict[str, Any] = {
             name: None if (v := getattr(self, name)) is None else v[::-1, ::-1].copy()
             for name in TABLES
