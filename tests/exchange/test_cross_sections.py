@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from scipy.sparse import coo_array, eye_array
+from scipy.sparse.linalg import spsolve
 
 from antinode.exchange.nastran.cross_sections import DIMENSIONS, cross_section
 
@@ -116,10 +118,117 @@ def test_sections_are_those_of_their_outlines(kind):
 
 
 def test_round_sections():
-    assert cross_section("ROD", [2.0]) == pytest.approx((*[4 * np.pi] * 3, 0, 8 * np.pi))
+    # Cowper (1966) at nu = 0.3: a circle 0.886; a thin tube 2 (1 + nu)/(4 + 3 nu)
+    rod = cross_section("ROD", [2.0])
+    assert rod == pytest.approx((*[4 * np.pi] * 3, 0, 8 * np.pi, *[7.8 / 8.8] * 2))
     tube = np.pi * (0.1**2 - 0.09**2), np.pi / 4 * (0.1**4 - 0.09**4)
     for kind, dimensions in (("TUBE", [0.1, 0.09]), ("TUBE2", [0.1, 0.01])):
-        assert cross_section(kind, dimensions) == pytest.approx((*tube, tube[1], 0, 2 * tube[1]))
+        found = cross_section(kind, dimensions)
+        assert found[:5] == pytest.approx((*tube, tube[1], 0, 2 * tube[1]))
+    thin = cross_section("TUBE", [1.0, 0.999], 0.25)
+    assert thin.K1 == thin.K2 == pytest.approx(2.5 / 4.75, rel=1e-5)
+
+
+def test_shear_factors_by_the_stresses_of_a_fine_grid():
+    """K = I^2/(A sum S^2/b) over thin slices of the outline's own widths."""
+    for kind, (dimensions, outline, holes) in OUTLINES.items():
+        for axis, name in ((1, "K1"), (0, "K2")):
+            t, b = slices(outline, holes, axis)
+            dt, A = t[1] - t[0], np.sum(b) * (t[1] - t[0])
+            t = t - np.sum(t * b) / np.sum(b)
+            S = np.cumsum(b * t) * dt - b * t * dt / 2
+            K = (np.sum(b * t**2) * dt) ** 2 / (A * np.sum(S**2 / b) * dt)
+            assert getattr(cross_section(kind, dimensions), name) == pytest.approx(K, rel=3e-3), (
+                kind
+            )
+
+
+def slices(outline, holes, axis, count=20_000):
+    """Middles of slices across a direction, and the widths that an outline leaves of them."""
+    corners = np.array(outline, dtype=float)[:, axis]
+    edges = np.linspace(np.min(corners), np.max(corners), count + 1)
+    t = (edges[1:] + edges[:-1]) / 2
+    return t, width(outline, axis, t) - sum(width(hole, axis, t) for hole in holes)
+
+
+def width(outline, axis, t):
+    points = np.array(outline, dtype=float)
+    a, b = points, np.roll(points, -1, axis=0)
+    total = np.zeros_like(t)
+    for p, q in zip(a, b, strict=True):
+        if p[axis] == q[axis]:
+            continue
+        inside = (t > min(p[axis], q[axis])) & (t < max(p[axis], q[axis]))
+        s = (t - p[axis]) / (q[axis] - p[axis])
+        total += np.where(
+            inside, np.sign(q[axis] - p[axis]) * (p + (q - p) * s[:, None])[:, 1 - axis], 0
+        )
+    return np.abs(total)
+
+
+OPEN = ("BAR", "I", "I1", "CHAN", "CHAN1", "CHAN2", "T", "T1", "T2", "CROSS", "H", "Z", "L", "HAT")
+
+
+@pytest.mark.parametrize("kind", OPEN)
+def test_torsion_of_open_sections_by_the_membrane(kind):
+    """J = 2 int phi of -laplace(phi) = 2: the sum of rectangles is below it, and not far."""
+    dimensions, outline, _ = OUTLINES[kind]
+    J, true = cross_section(kind, dimensions).J, membrane(outline)
+    assert 0.8 * true < J < 1.03 * true
+
+
+def membrane(outline, step=0.5):
+    """Twice the volume under a membrane over an outline whose corners lie on the grid."""
+    points = np.array(outline, dtype=float) - np.min(outline, axis=0)
+    if np.max(points) < 20:
+        points, step = points * 10, 0.5
+        scale = 1e-4
+    else:
+        scale = 1.0
+    n = np.round(np.max(points, axis=0) / step).astype(int)
+    z, y = (np.arange(1, k) * step for k in n)
+    inside = np.zeros((len(y), len(z)), dtype=bool)
+    for j, level in enumerate(y):
+        cuts = crossings(points, level)
+        for left, right in zip(cuts[::2], cuts[1::2], strict=True):
+            inside[j] |= (z > left + 1e-9) & (z < right - 1e-9)
+    number = np.full(inside.shape, -1)
+    number[inside] = np.arange(np.count_nonzero(inside))
+    rows, columns = [], []
+    for one, other in ((number[:, :-1], number[:, 1:]), (number[:-1], number[1:])):
+        both = (one >= 0) & (other >= 0)
+        rows += [one[both], other[both]]
+        columns += [other[both], one[both]]
+    rows, columns = np.concatenate(rows), np.concatenate(columns)
+    size = np.count_nonzero(inside)
+    A = 4 * eye_array(size) - coo_array((np.ones(len(rows)), (rows, columns)), shape=(size, size))
+    phi = spsolve(A.tocsc(), np.full(size, 2 * step**2))
+    return 2 * np.sum(phi) * step**2 * scale
+
+
+def crossings(points, level):
+    """Where a level cuts an outline of horizontal and vertical sides, in order; edges are out."""
+    a, b = points, np.roll(points, -1, axis=0)
+    low, high = np.minimum(a[:, 1], b[:, 1]), np.maximum(a[:, 1], b[:, 1])
+    sides = [np.sort(a[(low < at) & (at < high), 0]) for at in (level - 1e-6, level + 1e-6)]
+    if len(sides[0]) == len(sides[1]) and np.allclose(sides[0], sides[1]):
+        return sides[0]
+    grid = np.arange(0, np.max(points[:, 0]) + 0.25, 0.25) + 0.125
+    both = [np.count_nonzero(side[:, None] < grid, axis=0) % 2 == 1 for side in sides]
+    inside = np.concatenate([[False], both[0] & both[1], [False]])
+    edges = np.flatnonzero(inside[1:] != inside[:-1])
+    return edges * 0.25
+
+
+def test_closed_cells_in_torsion():
+    # a square tube of Bredt, a wall between equal cells that carries nothing, and half a cell
+    box = cross_section("BOX", [10.0, 10.0, 0.1, 0.1]).J
+    assert box == pytest.approx(9.9**3 * 0.1, rel=1e-12)
+    assert pytest.approx(box) == cross_section("BOX1", [10.0, 10.0, 0.1, 0.1, 0.1, 0.1]).J
+    two = cross_section("DBOX", [20.0, 10.0, 10.0, *[0.1] * 7]).J
+    assert two == pytest.approx(cross_section("BOX", [20.0, 10.0, 0.1, 0.1]).J, rel=1e-9)
+    hat = cross_section("HAT1", [10.001, 10.0, 10.0, 0.1, 0.1]).J
+    assert hat == pytest.approx(box, rel=1e-6)
 
 
 def test_the_rectangle_in_torsion():

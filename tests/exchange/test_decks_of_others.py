@@ -333,7 +333,7 @@ class TestTorsion:
             ("SPC1,7,123456,1", "SPC1,7,123456,1\nSPC1,7,4,2,3", "freedom 4 is held at every"),
             (TUBE, PBAR, "J, or G, is not known"),
             (",,.3,", ",,,", "J, or G, is not known"),
-            (TUBE, "PBARL,1,1,,BOX\n,.05,.08,.006,.004\n", "J, or G, is not known"),
+            (TUBE, "PBARL,1,1,,HEXA\n,.01,.08,.06\n", "J, or G, is not known"),
             (".3,7850.\n", ".3\n", "rho (I1 + I2) is zero"),
             ("CBAR,2,1,2,3", "GRID,4,,1.\nRBE2,20,2,1236,4\nCBAR,2,1,4,3", "of a joint"),
         ],

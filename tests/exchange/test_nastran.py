@@ -231,14 +231,18 @@ WRONG = {
     "a coordinate system": (("GRID,3,,3.", "GRID,3,4,3."), ("GRID", "coordinate system")),
     "a mass off the axis": ((",.1\nSPC1", ",.1,.2\nSPC1"), ("CONM2", "off the axis")),
     "no bulk": (("BEGIN BULK\n", ""), ("no BEGIN BULK",)),
-    "ten and more fields": (
-        ("GRID,1,,0.,0.,0.", "GRID,1,,0.,0.,0.,,,,,,"),
-        ("line 6", "at most ten"),
+    "fields behind a mark": (
+        ("GRID,1,,0.,0.,0.", "GRID,1,,0.,0.,0.,,,,+A,7"),
+        ("line 6", "the next line"),
     ),
+    "a superelement": (("CONM2,9", "BEGIN SUPER=1\nCONM2,9"), ("line 13", "superelement")),
     "a continuation alone": (("GRID,1", "+,1\nGRID,1"), ("line 6", "none is before it")),
     "a name that is none": (("GRID,1", "GR-D,1"), ("line 6", "no name of a card")),
 }
-WRONG["no mass"] = ((",,0.5\nMAT1,1,2.1+11,,.3,7850.", "\nMAT1,1,2.1+11,,.3"), ("mass per length",))
+WRONG["no mass"] = (
+    (",,0.5\nMAT1,1,2.1+11,,.3,7850.\nCONM2,9,3,,12.5,.1", "\nMAT1,1,2.1+11,,.3"),
+    ("mass per length", "no CONM2", "RHO"),
+)
 
 
 @pytest.mark.parametrize("what", WRONG)

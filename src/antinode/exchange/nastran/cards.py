@@ -1,6 +1,6 @@
 """NASTRAN's cards: fields as numbers and words, its own reals, and cards as text.
 
-A real may leave out its E: `7.0-3` is 0.007.
+A real may leave out its E: `7.0-3` is 0.007, and `7.0 -3` too.
 """
 
 from __future__ import annotations
@@ -13,7 +13,13 @@ from pathlib import Path
 from antinode.errors import InputError
 from antinode.text import short
 
-_REAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[EeDd]?([+-]?\d+))?$")
+_REAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[EeDd]?([+-]?\d+)| +([+-]\d+))?$")
+
+
+def number_in(text: str) -> float | None:
+    """Return a field as a number; None if it is none."""
+    found = _REAL.match(text)
+    return float(f"{found[1]}e{found[2] or found[3] or 0}") if found else None
 
 
 @dataclass(frozen=True)
@@ -43,10 +49,9 @@ class Card:
         text = self.text(number)
         if not text and default is not None:
             return default
-        found = _REAL.match(text)
-        if not found:
+        value = number_in(text)
+        if value is None:
             raise self.error(f"field {number} is {short(text)}; a number must stand there")
-        value = float(f"{found[1]}e{found[2] or 0}")
         if abs(value) > 1e300:
             raise self.error(f"field {number} is {short(text)}; that is too large: correct it")
         return value
@@ -59,6 +64,34 @@ class Card:
         if not re.fullmatch(r"[+-]?\d{1,18}", text):
             raise self.error(f"field {number} is {short(text)}; a whole number must stand there")
         return int(text)
+
+    def numbers(self, first: int, there: Iterable[int]) -> tuple[int, ...]:
+        """Return the numbers in the fields from one on; of `7 THRU 9` those that are there.
+
+        Raises
+        ------
+        InputError
+            If a field is none; a real closes the list.
+        """
+        cells = [(i, self.text(i)) for i in range(first, len(self.fields) + 1) if self.text(i)]
+        found: list[int] = []
+        k = 0
+        while k < len(cells):
+            i, text = cells[k]
+            if "." in text:
+                break
+            if text.upper() == "THRU" and found and k + 1 < len(cells):
+                last, step, k = self.integer(cells[k + 1][0]), 1, k + 2
+                if k + 1 < len(cells) and cells[k][1].upper() == "BY":
+                    step, k = self.integer(cells[k + 1][0]), k + 2
+                if step < 1:
+                    raise self.error(f"field {i + 3} is {step}; a step of at least 1 stands there")
+                low = found[-1]
+                found += sorted(n for n in there if low < n <= last and (n - low) % step == 0)
+                continue
+            found.append(self.integer(i))
+            k += 1
+        return tuple(found)
 
     def freedoms(self, number: int) -> str:
         """Return the freedoms 1 to 6 that a field names; 0 and blanks among them count nothing.
@@ -77,7 +110,7 @@ class Card:
         """Refuse the card unless these fields are empty or zero."""
         for number in numbers:
             text = self.text(number)
-            if text and not (_REAL.match(text) and self.real(number) == 0):
+            if text and number_in(text) != 0:
                 raise self.error(f"{what} in field {number} ({short(text)}) cannot be read")
 
     def filled(self, default: Card | None, *groups: tuple[int, ...]) -> Card:

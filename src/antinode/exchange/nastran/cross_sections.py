@@ -14,15 +14,26 @@ from typing import NamedTuple
 
 import numpy as np
 
+from antinode.arrays import Array
+
+from .shear_torsion import (
+    cells_in_torsion,
+    rectangle_in_torsion,
+    shear_factor,
+    shear_factor_of_ring,
+)
+
 
 class CrossSection(NamedTuple):
-    """Area, second moments about the neutral axes, and constant of torsion; J is 0 if not known."""
+    """Area, second moments about the neutral axes, torsion (0 if not known), shear factors."""
 
     A: float
     I1: float
     I2: float
     I12: float
-    J: float = 0.0
+    J: float
+    K1: float
+    K2: float
 
 
 class Rectangle(NamedTuple):
@@ -35,12 +46,10 @@ class Rectangle(NamedTuple):
     sign: int = 1
 
 
-_ZETA_5 = 1.0369277551433699
-"""Sum of 1/n^5, of which the odd n make up 31/32."""
 Shape = Callable[..., list[Rectangle]]
 
 
-def cross_section(kind: str, dimensions: Sequence[float]) -> CrossSection:
+def cross_section(kind: str, dimensions: Sequence[float], nu: float = 0.3) -> CrossSection:
     """Return the properties of a cross-section.
 
     Parameters
@@ -48,6 +57,8 @@ def cross_section(kind: str, dimensions: Sequence[float]) -> CrossSection:
     kind : str
         One of `DIMENSIONS`.
     dimensions : sequence of float
+    nu : float
+        Poisson's ratio: the shear factor of circles depends on it.
 
     Raises
     ------
@@ -60,19 +71,15 @@ def cross_section(kind: str, dimensions: Sequence[float]) -> CrossSection:
         if not 0 <= inner < outer:
             raise ValueError("its radii do not fit together")
         inertia = math.pi / 4 * (outer**4 - inner**4)
-        return CrossSection(math.pi * (outer**2 - inner**2), inertia, inertia, 0.0, 2 * inertia)
-    if kind == "BAR" and min(d) > 0:
-        return _sum(_bar(*d))._replace(J=_rectangle_in_torsion(*d))
-    return _hexagon(*d) if kind == "HEXA" else _sum(_RECTANGLES[kind](*d))
-
-
-def _rectangle_in_torsion(d1: float, d2: float) -> float:
-    """Return J of a rectangle (Timoshenko and Goodier, Theory of Elasticity, equation 160)."""
-    a, b = max(d1, d2), min(d1, d2)
-    n = np.arange(1, 20, 2)
-    rest = 2 / (np.exp(n * math.pi * a / b) + 1) / n**5
-    series = 31 / 32 * _ZETA_5 - float(np.sum(rest))
-    return a * b**3 / 3 * (1 - 192 / math.pi**5 * b / a * series)
+        area, K = math.pi * (outer**2 - inner**2), shear_factor_of_ring(outer, inner, nu)
+        return CrossSection(area, inertia, inertia, 0.0, 2 * inertia, K, K)
+    if kind == "HEXA":
+        return _hexagon(*d)
+    parts = _RECTANGLES[kind](*d)
+    own = _sum(parts)
+    closed = _CELLS.get(kind)
+    J = closed(*d) if closed else sum(rectangle_in_torsion(p.b, p.h) for p in parts)
+    return own._replace(J=J)
 
 
 def _sum(parts: list[Rectangle]) -> CrossSection:
@@ -86,7 +93,20 @@ def _sum(parts: list[Rectangle]) -> CrossSection:
     y, z = y - np.sum(area * y) / A, z - np.sum(area * z) / A
     I1 = float(np.sum(area * (h**2 / 12 + y**2)))
     I2 = float(np.sum(area * (b**2 / 12 + z**2)))
-    return CrossSection(A, I1, I2, float(np.sum(area * y * z)))
+    K1, K2 = _shear(y, h, sign * b), _shear(z, b, sign * h)
+    return CrossSection(A, I1, I2, float(np.sum(area * y * z)), 0.0, K1, K2)
+
+
+def _shear(middle: Array, along: Array, across: Array) -> float:
+    """Return the shear factor of rectangles, in the direction of their sides `along`."""
+    ends = np.stack([middle - along / 2, middle + along / 2])
+    at = np.unique(np.round(ends, 15 - int(np.ceil(np.log10(np.max(np.abs(ends)))))))
+    inside = (at[:-1, None] + at[1:, None]) / 2
+    there = (ends[0] < inside) & (inside < ends[1])
+    width = np.sum(np.where(there, across, 0.0), axis=1)
+    if np.any(width <= 0):
+        raise ValueError("its parts do not hang together")
+    return shear_factor(at, np.stack([width, width], axis=1))
 
 
 def _hexagon(d1: float, d2: float, d3: float) -> CrossSection:
@@ -95,11 +115,18 @@ def _hexagon(d1: float, d2: float, d3: float) -> CrossSection:
     if not (d1 >= 0 and flat >= 0 and d3 > 0):
         raise ValueError("its dimensions do not fit together")
     corner = d1 * d3 / 2
+    y = np.array([-d3 / 2, 0.0, d3 / 2])
+    z = np.array([-d2 / 2, -flat / 2, flat / 2, d2 / 2])
+    sides = np.array([[0.0, d3], [d3, d3], [d3, 0.0]])
+    kept = np.diff(z) > 0
     return CrossSection(
         flat * d3 + 2 * corner,
         flat * d3**3 / 12 + d1 * d3**3 / 24,
         d3 * flat**3 / 12 + 2 * corner * (d1**2 / 18 + (flat / 2 + d1 / 3) ** 2),
         0.0,
+        0.0,
+        shear_factor(y, np.array([[flat, d2], [d2, flat]])),
+        shear_factor(np.append(z[:-1][kept], z[-1]), sides[kept]),
     )
 
 
@@ -216,6 +243,41 @@ def _hat1(width: float, height: float, top: float, t: float, plate: float) -> li
     return [Rectangle(width, plate, -plate / 2), *hat]
 
 
+def _box_in_torsion(*d: float) -> float:
+    """J of BOX, whose dimensions are width, height, plates, webs, or of BOX1."""
+    d1, d2, top, bottom, left, right = d if len(d) == 6 else (d[0], d[1], d[2], d[2], d[3], d[3])
+    w, h = d1 - (left + right) / 2, d2 - (top + bottom) / 2
+    return cells_in_torsion([w * h], [h / left + h / right + w / top + w / bottom], 0.0)
+
+
+def _dbox_in_torsion(*d: float) -> float:
+    d1, d2, d3, left, middle, right, *plates = d
+    widths = d3 - left / 2, d1 - d3 - right / 2
+    heights = d2 - sum(plates[:2]) / 2, d2 - sum(plates[2:]) / 2
+    around = [
+        w / top + w / bottom + h / side + h / middle
+        for w, h, side, top, bottom in zip(
+            widths, heights, (left, right), plates[::2], plates[1::2], strict=True
+        )
+    ]
+    areas = [w * h for w, h in zip(widths, heights, strict=True)]
+    return cells_in_torsion(areas, around, sum(heights) / 2 / middle)
+
+
+def _hat1_in_torsion(width: float, height: float, top: float, t: float, plate: float) -> float:
+    """J of the cell between hat and plate, and of what sticks out of it."""
+    w, h = top - t, height - plate / 2 - t / 2
+    brim = (width - top) / 2
+    out = 2 * rectangle_in_torsion(brim, t + plate)
+    return cells_in_torsion([w * h], [(w + 2 * h) / t + w / plate], 0.0) + out
+
+
+_CELLS: dict[str, Callable[..., float]] = {
+    "BOX": _box_in_torsion,
+    "BOX1": _box_in_torsion,
+    "DBOX": _dbox_in_torsion,
+    "HAT1": _hat1_in_torsion,
+}
 _ROUND: dict[str, Callable[..., tuple[float, float]]] = {
     "ROD": lambda d1: (d1, 0.0),
     "TUBE": lambda d1, d2: (d1, d2),

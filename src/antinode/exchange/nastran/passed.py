@@ -22,7 +22,7 @@ REDUCTIONS = _names("ASET ASET1 OMIT OMIT1 QSET QSET1 CSET CSET1 BSET BSET1")
 _SOLUTION = _names(
     "EIGB EIGC EIGP EIGR EIGRL EIGRA FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 TSTEP TSTEP1 TSTEPNL",
     "NLPARM NLPCI NLCNTL NLCNTL2 SUPORT SUPORT1 USET USET1 PLOTEL PLOTEL3 PLOTEL4 EPOINT",
-    "SPOINT POINT ECHOON ECHOOFF DEBUG MDLPRM SWLDPRM CBARAO",
+    "SPOINT POINT ECHOON ECHOOFF DEBUG MDLPRM SWLDPRM CBARAO SESET SEELT RELEASE CNGRNT",
 )
 _EXCITATION = _names(
     "DAREA DELAY DPHASE DLOAD RLOAD1 RLOAD2 TLOAD1 TLOAD2 TIC RANDPS RANDT1 TABDMP1 TABLED1",
@@ -56,10 +56,14 @@ PASSED = (
     | _OTHERS
 )
 """All of them."""
-CHOSEN = {"MPC": "MPC", "MPCADD": "MPC"} | dict.fromkeys(
-    ("NSM", "NSM1", "NSML", "NSML1", "NSMADD"), "NSM"
-)
-"""Cards that count where the case control chooses their set, and how it does."""
+CHOSEN: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("MPC", "MPCADD"), ("MPC",)),
+    **dict.fromkeys(("NSM", "NSM1", "NSML", "NSML1", "NSMADD"), ("NSM",)),
+    **dict.fromkeys(("DMIG", "DMIAX"), ("K2GG", "M2GG", "K2PP", "M2PP")),
+    "TF": ("TFL",),
+    **dict.fromkeys(("ROTORG", "RGYRO", "RSPINR", "RSPINT", "UNBALNC"), ("RGYRO",)),
+}
+"""Cards that count where the case control chooses their set, by how it does."""
 UNLISTED = _names("EIGR EIGRL ECHOON ECHOOFF PLOTEL")
 """Not worth a word."""
 ELEMENTS = _names(

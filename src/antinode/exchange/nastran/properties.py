@@ -5,9 +5,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.errors import InputError
 
 from .line import Line, left_end, section
 from .model import Element, Model
@@ -24,6 +27,7 @@ def tables_of(model: Model, line: Line, plane: int) -> tuple[dict[str, Array], A
         x.append(line.x[k] + (line.x[k + 1] - line.x[k]) * fraction[1:])
         rows.append(np.stack([table[:-1], table[1:]], axis=2))
     m, EI, EA, GJ, inertia = np.concatenate(rows).transpose(1, 0, 2)
+    m = _with_mass(model, line, m)
     tables = {"mass_per_length": m * model.mass_factor, "bending_stiffness": EI}
     if np.all(EA > 0):
         tables["axial_stiffness"] = EA
@@ -41,17 +45,54 @@ def section_rows(model: Model, element: Element, plane: int) -> tuple[Array, Arr
     material, columns = model.materials[own.material], own.columns
     EI = material.E * columns[f"I{plane}"]
     mass = material.rho * columns["A"] + columns["NSM"]
-    for what, values in ((f"I{plane} times E", EI), ("mass per length", mass)):
-        if not np.all(values > 0) or not np.all(np.isfinite(values)):
-            raise own.card.error(
-                f"{what} is {np.min(values):g}; it must be positive{_HINTS.get(what, '')}"
-            )
+    for what, values, ok in (
+        (f"I{plane} times E", EI, EI > 0),
+        ("mass per length", mass, mass >= 0),
+    ):
+        if not np.all(ok) or not np.all(np.isfinite(values)):
+            raise own.card.error(f"{what} is {np.min(values):g}; it must be positive")
     GJ = material.G * columns["J"]
     inertia = material.rho * (columns["I1"] + columns["I2"]) + columns["NSI"]
     return own.at, np.stack([mass, EI, material.E * columns["A"], GJ, inertia], axis=1)
 
 
-_HINTS = {"mass per length": ": give RHO on its MAT1, or NSM"}
+LIGHT = 1e-9
+"""Of the masses at the grids: what bars weigh that have no mass of their own."""
+
+
+def _with_mass(model: Model, line: Line, m: Array) -> Array:
+    """Return mass per length; next to none of the masses at the grids where bars have none.
+
+    Raises
+    ------
+    InputError
+        If there is no mass at the grids either.
+    """
+    bare = m <= 0
+    if not np.any(bare):
+        return m
+    lumped = sum(card.real(4, 0.0) for card in model.masses)
+    if not lumped > 0:
+        weightless = min(
+            (section(model, element) for element in line.elements), key=_mass_of_section(model)
+        )
+        raise weightless.card.error(
+            "mass per length is 0, and no CONM2 has a mass; it must be positive: give RHO on its "
+            "MAT1, or NSM"
+        )
+    model.notes.append(
+        f"bars without mass weigh {LIGHT:g} of the CONM2 here; modes beyond the number of masses "
+        "mean nothing"
+    )
+    return np.where(bare, LIGHT * lumped / float(np.ptp(line.x)), m)
+
+
+def _mass_of_section(model: Model) -> Callable[[Section], float]:
+    def mass(own: Section) -> float:
+        rho = model.materials[own.material].rho
+        return float(np.min(rho * own.columns["A"] + own.columns["NSM"]))
+
+    return mass
 
 
 def _check_product(model: Model, line: Line) -> None:
@@ -71,7 +112,10 @@ def _is_skew(own: Section) -> bool:
 
 def _held_in_plane(line: Line, grid: int) -> bool:
     own = line.grids[grid]
-    axial, lateral, rotational, _ = line.freedoms(grid, own.card)
+    try:
+        axial, lateral, rotational, _ = line.freedoms(grid, own.card)
+    except InputError:
+        return False
     out = {str(6 - axial - lateral), str(lateral + 3)}
     return rotational > 0 and out <= set(own.held)
 
@@ -80,8 +124,13 @@ def notes_of(model: Model, line: Line, no_torsion: str | None) -> tuple[str, ...
     """Say what of the sections is left out, torsion with the reason."""
     own = [section(model, element) for element in line.elements]
     notes = {note: None for s in own for note in s.notes}
-    if any(any(s.shear) for s in own):
+    if any(np.any(s.columns["K1"]) for s in own):
         notes["shear (K1, K2): the beam is one of Euler and Bernoulli"] = None
     if no_torsion:
         notes[f"torsion: {no_torsion}"] = None
-    return (f"left out: {'; '.join(notes)}",) if notes else ()
+    said: tuple[str, ...] = (f"left out: {'; '.join(notes)}",) if notes else ()
+    if no_torsion is None and any(element.card.name == "CBAR" for element in line.elements):
+        said += (
+            "rho (I1 + I2) is the polar inertia of the bars; a CBAR has none in most solvers",
+        )
+    return said

@@ -16,14 +16,15 @@ from antinode.arrays import Array
 from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
 from antinode.beam.beam import Beam
 from antinode.exchange.units import SI, System
-from antinode.text import counted
+from antinode.text import counted, short
 
 from .attached import attachments_of, axial_force_of_strings, ends_of, inner_supports
 from .deck import Subcase, read_deck
 from .line import Line, line_of
-from .model import Model, passed_notes, read_model
+from .model import Model
 from .preload import preloaded, subcases_of
 from .properties import notes_of, tables_of
+from .sorting import passed_notes, read_model
 from .torsion import GJ, INERTIA, lumps_of, missing, spread, without
 
 
@@ -65,8 +66,10 @@ def read_nastran(
     strings = axial_force_of_strings(model, line)
     if np.any(strings):
         beam = _under(beam, line, strings, system)
+    _pass_unused_supports(model, modal, static)
     notes = (
         *_notes(model, modal, static, system),
+        *model.notes,
         *notes_of(model, line, no_torsion),
         *passed_notes(model),
     )
@@ -132,6 +135,17 @@ def _in_si(item: Attachment, system: System) -> Attachment:
     return Joint(x, turning, item.axial * force / length, twisting)
 
 
+def _pass_unused_supports(model: Model, modal: Subcase | None, static: Subcase | None) -> None:
+    """Count supports of sets that nothing chooses, where a case control could."""
+    if modal is None:
+        return
+    cases = [modal] if static is None else [modal, static]
+    numbers = [case.settings["SPC"] for case in cases if "SPC" in case.settings]
+    used = set[int]().union(*(model.chosen_supports(number) for number in numbers))
+    unused = {id(card): card.name for number, _, _, card in model.supports if number not in used}
+    model.passed.update(unused.values())
+
+
 def _notes(
     model: Model, modal: Subcase | None, static: Subcase | None, system: System
 ) -> tuple[str, ...]:
@@ -143,6 +157,9 @@ def _notes(
         notes.append(
             "there is no ENDDATA at the end of the file: if it was cut off, cards are missing"
         )
+    if model.deck.missing:
+        names = ", ".join(short(name) for name in model.deck.missing)
+        notes.append(f"files included before the bulk data are not there: {names}")
     if model.forces and not static:
         notes.append("FORCE cards are left out: no subcase of modes has a STATSUB")
     return tuple(notes)

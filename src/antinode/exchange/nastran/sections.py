@@ -17,8 +17,10 @@ from antinode.text import nearest, short
 from .cards import Card
 from .cross_sections import DIMENSIONS, cross_section
 
-COLUMNS = ("A", "I1", "I2", "I12", "J", "NSM", "NSI")
-"""Of a section at a station; NSM is mass per length that carries nothing, NSI its polar inertia."""
+COLUMNS = ("A", "I1", "I2", "I12", "J", "NSM", "NSI", "K1", "K2")
+"""Of a section at a station; NSM is mass per length that carries nothing, NSI its polar inertia.
+
+K1 and K2 are factors of shear: kGA = K G A in planes 1 and 2; 0 is rigid."""
 _SYMMETRIC = ("ROD", "TUBE", "TUBE2", "BAR", "BOX", "I1", "CROSS", "H", "Z", "HEXA")
 
 
@@ -38,8 +40,8 @@ class Section:
         Fractions 0 ... 1 of the element.
     columns : dict
         `COLUMNS` at these, linear between them.
-    shear : tuple of float
-        Factors K1, K2: kGA = K G A in planes 1 and 2; 0 is rigid.
+    shear : bool
+        Whether the deck itself gives K1 or K2.
     neutral : array, shape (2,)
         The neutral axis in y and z from the line of the element's ends.
     card : Card
@@ -51,7 +53,7 @@ class Section:
     at: Array
     columns: dict[str, Array]
     card: Card
-    shear: tuple[float, float] = (0.0, 0.0)
+    shear: bool = False
     neutral: Array = field(default_factory=lambda: np.zeros(2))
     notes: tuple[str, ...] = ()
 
@@ -62,25 +64,28 @@ class Section:
         return bool(np.all(np.abs(I1 - I2) <= 1e-9 * I1) and np.all(np.abs(I12) <= 1e-9 * I1))
 
 
-def section_of(card: Card) -> Section:
-    """Return the section of a card."""
-    return READERS[card.name](card)
+def section_of(card: Card, nu: float) -> Section:
+    """Return the section of a card, of a material with this Poisson's ratio."""
+    return READERS[card.name](card, nu)
 
 
-def _uniform(card: Card, row: dict[str, float], shear: tuple[float, float]) -> Section:
+def _uniform(card: Card, row: dict[str, float], *, shear: bool = False) -> Section:
     columns = {name: np.full(2, row.get(name, 0.0)) for name in COLUMNS}
     return Section(card.integer(2), np.array([0.0, 1.0]), columns, card, shear)
 
 
-def _pbar(card: Card) -> Section:
-    fields = {"A": 3, "I1": 4, "I2": 5, "J": 6, "NSM": 7, "I12": 19}
+def _pbar(card: Card, _: float) -> Section:
+    """Read a PBAR; where it has I12 its shear factors do not count in NASTRAN."""
+    fields = {"A": 3, "I1": 4, "I2": 5, "J": 6, "NSM": 7, "I12": 19, "K1": 17, "K2": 18}
     row = {name: card.real(i, 0.0) for name, i in fields.items()}
-    return _uniform(card, row, (card.real(17, 0.0), card.real(18, 0.0)))
+    if row["I12"]:
+        row |= {"K1": 0.0, "K2": 0.0}
+    return _uniform(card, row, shear=bool(row["K1"] or row["K2"]))
 
 
-def _pbarl(card: Card) -> Section:
+def _pbarl(card: Card, nu: float) -> Section:
     kind, count = _kind(card)
-    return _uniform(card, _shape(card, kind, 9, count), (0.0, 0.0))
+    return _uniform(card, _shape(card, kind, 9, count, nu))
 
 
 def _kind(card: Card) -> tuple[str, int]:
@@ -94,20 +99,20 @@ def _kind(card: Card) -> tuple[str, int]:
     return kind, DIMENSIONS[kind]
 
 
-def _shape(card: Card, kind: str, first: int, count: int) -> dict[str, float]:
+def _shape(card: Card, kind: str, first: int, count: int, nu: float) -> dict[str, float]:
     """Return the columns of a cross-section whose dimensions begin at a field."""
     dimensions = [card.real(first + i) for i in range(count)]
-    return _columns(card, kind, dimensions) | {"NSM": card.real(first + count, 0.0)}
+    return _columns(card, kind, dimensions, nu) | {"NSM": card.real(first + count, 0.0)}
 
 
-def _columns(card: Card, kind: str, dimensions: list[float]) -> dict[str, float]:
+def _columns(card: Card, kind: str, dimensions: list[float], nu: float) -> dict[str, float]:
     try:
-        return cross_section(kind, dimensions)._asdict()
+        return cross_section(kind, dimensions, nu)._asdict()
     except ValueError as error:
         raise card.error(f"{kind}: {error}; correct them") from error
 
 
-def _pbeam(card: Card) -> Section:
+def _pbeam(card: Card, _: float) -> Section:
     names = ("A", "I1", "I2", "I12", "J", "NSM")
     ends: Stations = {0.0: {name: card.real(3 + i, 0.0) for i, name in enumerate(names)}}
     place = 9 if _is_station(card, 9) else 17
@@ -122,15 +127,12 @@ def _pbeam(card: Card) -> Section:
     fractions, columns = _filled(ends)
     nsi = card.real(place + 4, 0.0)
     columns["NSI"] = nsi + (card.real(place + 5, nsi) - nsi) * fractions
+    for i, name in enumerate(("K1", "K2")):
+        columns[name] = np.full(len(fractions), card.real(place + i, 1.0))
     _check_mass_on_axis(card, place + 8, columns)
-    return Section(
-        card.integer(2),
-        fractions,
-        columns,
-        card,
-        (card.real(place, 1.0), card.real(place + 1, 1.0)),
-        _neutral(card, place + 12),
-    )
+    given = bool(card.text(place) or card.text(place + 1))
+    neutral = _neutral(card, place + 12)
+    return Section(card.integer(2), fractions, columns, card, given, neutral)
 
 
 def _is_station(card: Card, place: int) -> bool:
@@ -183,33 +185,34 @@ def _check_mass_on_axis(card: Card, place: int, columns: dict[str, Array]) -> No
         )
 
 
-def _pbeaml(card: Card) -> Section:
+def _pbeaml(card: Card, nu: float) -> Section:
     kind, count = _kind(card)
-    ends: Stations = {0.0: dict(_shape(card, kind, 9, count))}
+    ends: Stations = {0.0: dict(_shape(card, kind, 9, count, nu))}
     place = 9 + count + 1
     while place <= len(card.fields) and any(card.fields[place - 1 : place + count + 2]):
         at = _fraction(card, place + 1)
         _check_new(card, place + 1, at, ends)
-        ends[at] = _station(card, kind, place + 2, count, at)
+        ends[at] = _station(card, kind, place + 2, count, nu)
         place += count + 3
     fractions, columns = _filled(ends)
     notes = () if kind in _SYMMETRIC else (f"the shear centre of {kind} beside its neutral axis",)
-    return Section(card.integer(2), fractions, columns, card, (1.0, 1.0), notes=notes)
+    return Section(card.integer(2), fractions, columns, card, notes=notes)
 
 
-def _station(card: Card, kind: str, place: int, count: int, at: float) -> Row:
+def _station(card: Card, kind: str, place: int, count: int, nu: float) -> Row:
     """Return a station of a PBEAML; at end B an empty dimension is as at end A."""
     texts = [card.text(place + i) for i in range(count)]
+    at = card.real(place - 1, 1.0)
     if at < 1 and not all(texts):
         raise card.error(
             f"at X/XB = {at:g} a dimension is empty; fill it in, or remove the station"
         )
     dimensions = [card.real(place + i if text else 9 + i) for i, text in enumerate(texts)]
     nsm = card.real(place + count) if card.text(place + count) else None
-    return {**_columns(card, kind, dimensions), "NSM": nsm}
+    return {**_columns(card, kind, dimensions, nu), "NSM": nsm}
 
 
-READERS: dict[str, Callable[[Card], Section]] = {
+READERS: dict[str, Callable[[Card, float], Section]] = {
     "PBAR": _pbar,
     "PBARL": _pbarl,
     "PBEAM": _pbeam,
