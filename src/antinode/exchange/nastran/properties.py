@@ -130,7 +130,5 @@ def notes_of(model: Model, line: Line, no_torsion: str | None) -> tuple[str, ...
         notes[f"torsion: {no_torsion}"] = None
     said: tuple[str, ...] = (f"left out: {'; '.join(notes)}",) if notes else ()
     if no_torsion is None and any(element.card.name == "CBAR" for element in line.elements):
-        said += (
-            "rho (I1 + I2) is the polar inertia of the bars; a CBAR has none in most solvers",
-        )
+        said += ("rho (I1 + I2) is the polar inertia of the bars; a CBAR has none in most solvers",)
     return said
