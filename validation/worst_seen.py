@@ -34,7 +34,7 @@ import reference  # noqa: E402
 from antinode import Beam, Ends, load_case, solve_modes  # noqa: E402
 from antinode.modes.buckling import buckling  # noqa: E402
 from antinode.riccati.roots import find_eigenvalues  # noqa: E402
-from antinode.riccati.segment import bending_transfer, wave_number  # noqa: E402
+from antinode.riccati.segment import lateral_transfer, wave_number  # noqa: E402
 from law_chains import bending_chain  # noqa: E402
 
 ENDS = uniform.ENDS
@@ -110,10 +110,10 @@ def transfer_matrices():
     for N in (-30.0, -1.0, 0.0, 1.0, 30.0):
         for inertia in (-50.0, -1e-8, 0.0, 1e-8, 3.0, 50.0, -(30.0**2) / 4 / EI):
             for phase in (1e-3, 0.3, 1.5):
-                bound = float(wave_number(*map(np.array, (EI, N, inertia))))
+                bound = float(wave_number(*map(np.array, (N / EI, inertia / EI))))
                 h = phase / max(bound, 1e-3)
                 A = [[0, 1, 0, 0], [0, 0, 1 / EI, 0], [0, -N, 0, 1], [inertia, 0, 0, 0]]
-                U = bending_transfer(*map(np.array, (h, EI, N, inertia)))
+                U = lateral_transfer(*map(np.array, (h, EI, N, inertia)))
                 exact = segment.exponential(np.array(A, dtype=float), h)
                 here = np.where(exact == 0, 0.0, np.abs(U / np.where(exact == 0, 1, exact) - 1))
                 worst = max(worst, float(here.max()))

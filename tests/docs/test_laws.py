@@ -10,7 +10,7 @@ from antinode.riccati import laws
 SOURCE = Path(antinode.__file__).parent
 NAMES = set(FAMILIES)
 OBJECTS = {"BENDING", "LONGITUDINAL", "TORSION", "BAR", "SHAFT"}
-TABLES = {"riccati/laws", "beam/families"}
+TABLES = {"riccati/law", "riccati/laws", "beam/families"}
 COMPILED = {"riccati/lanes/laws"}
 TO_GO = {"study/identify/report"}
 

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from antinode.riccati.segment import bending_transfer, wave_number, wave_transfer
+from antinode.riccati.segment import lateral_transfer, wave_number, wave_transfer
 
 
 def exponential(A, h):
@@ -18,9 +18,9 @@ def exponential(A, h):
 def test_bending(N, inertia, phase):
     """Every sign of N and omega^2, coincident roots (the last inertia at N = +-30) included."""
     EI = 7.0
-    h = phase / max(float(wave_number(np.array(EI), np.array(N), np.array(inertia))), 1e-3)
+    h = phase / max(float(wave_number(np.array(N / EI), np.array(inertia / EI))), 1e-3)
     A = np.array([[0, 1, 0, 0], [0, 0, 1 / EI, 0], [0, -N, 0, 1], [inertia, 0, 0, 0]], dtype=float)
-    U = bending_transfer(*map(np.array, (h, EI, N, inertia)))
+    U = lateral_transfer(*map(np.array, (h, EI, N, inertia)))
     np.testing.assert_allclose(U, exponential(A, h), rtol=1e-13, atol=1e-300)
 
 
@@ -33,7 +33,7 @@ def test_longitudinal(inertia):
 
 
 def test_determinant_and_symplectic_form():
-    U = bending_transfer(*map(np.array, (0.3, 7.0, 4.0, 20.0)))
+    U = lateral_transfer(*map(np.array, (0.3, 7.0, 4.0, 20.0)))
     J = np.zeros((4, 4))
     J[0, 3], J[3, 0], J[1, 2], J[2, 1] = -1, 1, 1, -1
     np.testing.assert_allclose(U.T @ J @ U, J, atol=1e-14)

@@ -11,7 +11,7 @@ points with weights 1/2 +- sqrt(3)/3, the larger for the nearer point: fourth or
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -34,17 +34,26 @@ from .attachments import (
     gather,
     on_beam,
 )
-from .checks import LOGARITHMIC, TABLES, check, check_rows, check_stations, given
+from .checks import (
+    LOGARITHMIC,
+    TABLES,
+    ShearForm,
+    Theory,
+    check,
+    check_rows,
+    check_stations,
+    given,
+)
 from .ends import FREE, Ends
 from .families import FAMILIES, FamilyName, tells
 from .mass import MassDistribution, mass_within
 from .profile import interpolated
-from .representation import GAUSS, coarsest_steps, copies, halved
+from .representation import make_chain
 
 
 @dataclass(frozen=True, eq=False)
 class Beam(ByValue):
-    """A straight non-uniform Euler-Bernoulli beam under static axial force.
+    """A straight non-uniform beam under static axial force: Euler-Bernoulli's or Timoshenko's.
 
     Parameters
     ----------
@@ -60,14 +69,31 @@ class Beam(ByValue):
         a [m/s^2] adds ``a * (mass left of x)`` to N: the inertia of a body that accelerates
         towards -x, or weight that acts towards +x.
     interpolation : {"step", "linear", "log"}
-        How m, EI, EA and GJ vary between the two values of an interval ("step": they are equal);
-        the others vary linearly.
+        How m, EI, EA, kGA and GJ vary between the two values of an interval ("step": they are
+        equal); the others vary linearly.
     ends : Ends
     radius_of_gyration : array, shape (n, 2), optional
-        Of the cross-section [m], for the estimate of shear and rotary inertia only; by default
-        sqrt(EI/EA).
+        Of the cross-section [m], for rotary inertia; where only the effect of that is estimated,
+        by default sqrt(EI/EA).
     torsional_stiffness, polar_inertia_per_length : array, shape (n, 2), optional
         GJ [N m^2] and rho I_p [kg m], both or neither; without them there are no torsion modes.
+    shear_stiffness : array, shape (n, 2), optional
+        kGA [N], positive or inf; rigid in shear by default.
+    rotary_inertia_per_length : array, shape (n, 2), optional
+        rho I [kg m], of the section about its lateral axis; by default m times the square of
+        `radius_of_gyration`, if that is given and the theory is Timoshenko's, else none.
+    foundation_stiffness : array, shape (n, 2), optional
+        Of an elastic foundation, lateral [N/m^2].
+    added_mass_per_length : array, shape (n, 2), optional
+        Of water that moves with Y [kg/m]: no weight, no inertia along the axis.
+    loss_factor : array, shape (n, 2), optional
+        Of EI, kGA, EA and GJ: for responses and complex modes; natural frequencies are those
+        without.
+    theory : {"euler_bernoulli", "timoshenko"}, optional
+        Default: Timoshenko's where `shear_stiffness` or `rotary_inertia_per_length` is given.
+        Euler-Bernoulli's leaves both out.
+    shear_form : {"haringx", "engesser"}
+        How the axial force and shear meet.
     attachments : tuple of PointMass, Spring and Joint
         At breakpoints; `with_attachments` makes the breakpoints.
     offset_weight : bool
@@ -97,6 +123,13 @@ class Beam(ByValue):
     radius_of_gyration: Array | None = None
     torsional_stiffness: Array | None = None
     polar_inertia_per_length: Array | None = None
+    shear_stiffness: Array | None = None
+    rotary_inertia_per_length: Array | None = None
+    foundation_stiffness: Array | None = None
+    added_mass_per_length: Array | None = None
+    loss_factor: Array | None = None
+    theory: Theory | None = None
+    shear_form: ShearForm = "haringx"
     attachments: tuple[Attachment, ...] = ()
     offset_weight: bool = True
     name: str = "beam"
@@ -122,10 +155,10 @@ class Beam(ByValue):
         *,
         interpolation: Interpolation = "step",
         ends: Ends | None = None,
-        radius_of_gyration: npt.ArrayLike | None = None,
-        torsional_stiffness: npt.ArrayLike | None = None,
-        polar_inertia_per_length: npt.ArrayLike | None = None,
+        theory: Theory | None = None,
+        shear_form: ShearForm = "haringx",
         name: str = "beam",
+        **columns: npt.ArrayLike | None,
     ) -> Beam:
         """Build a beam from values at stations.
 
@@ -133,43 +166,42 @@ class Beam(ByValue):
         ----------
         x : array_like, shape (n + 1,)
             Stations [m]; two rows at one x are a jump, unless "step".
-        mass_per_length, bending_stiffness, axial_stiffness, axial_force, radius_of_gyration
-            Values at the stations, shape (n + 1,) [kg/m, N m^2, N, N, m]. With "step" row k holds
+        mass_per_length, bending_stiffness, axial_stiffness, axial_force
+            Values at the stations, shape (n + 1,) [kg/m, N m^2, N, N]. With "step" row k holds
             from x_k to x_k+1 and the last row only closes the table (shape (n,) is accepted too).
-        torsional_stiffness, polar_inertia_per_length : array_like, shape (n + 1,), optional
-            [N m^2, kg m]; both or neither.
-        interpolation : {"step", "linear", "log"}
-        ends : Ends
-        name : str
+        interpolation, ends, theory, shear_form, name
+            As they are of the beam.
+        **columns
+            The beam's other tables in the same way: `radius_of_gyration`, `torsional_stiffness`
+            and `polar_inertia_per_length`, `shear_stiffness`, `rotary_inertia_per_length`,
+            `foundation_stiffness`, `added_mass_per_length`, `loss_factor`.
         """
+        if unknown := sorted(columns.keys() - set(TABLES)):
+            raise TypeError(f"a beam has no column {unknown[0]!r}; it may have {', '.join(TABLES)}")
         stations = np.atleast_1d(numbers("x", x))
         check_stations(stations)
         kept = (np.diff(stations) != 0) | (interpolation == "step")
-
-        def between(name: str, values: npt.ArrayLike | None) -> Array | None:
-            """Return values at both ends of every interval, shape (n, 2)."""
-            if values is None:
-                return None
-            column = _column(name, values, len(stations), interpolation)
-            right = column[: len(kept)] if interpolation == "step" else column[1:]
-            return owned(name, np.stack([column[: len(kept)], right], axis=1)[kept])
-
-        m = between("mass_per_length", mass_per_length)
-        EI = between("bending_stiffness", bending_stiffness)
-        if m is None or EI is None:
+        columns["mass_per_length"], columns["bending_stiffness"] = (
+            mass_per_length,
+            bending_stiffness,
+        )
+        columns["axial_stiffness"], columns["axial_force"] = axial_stiffness, axial_force
+        tables: dict[str, Any] = {}
+        for column, values in columns.items():
+            if values is not None:
+                rows = _column(column, values, len(stations), interpolation)
+                right = rows[: len(kept)] if interpolation == "step" else rows[1:]
+                sides = np.stack([rows[: len(kept)], right], axis=1)
+                tables[column] = owned(column, sides[kept])
+        if not {"mass_per_length", "bending_stiffness"} <= tables.keys():
             raise InputError("mass_per_length and bending_stiffness are needed at every station")
-        N = between("axial_force", axial_force)
         return cls(
             np.append(stations[:-1][kept], stations[-1:]),
-            m,
-            EI,
-            between("axial_stiffness", axial_stiffness),
-            N if N is not None else np.zeros(0),
+            **tables,
             interpolation=interpolation,
             ends=ends or Ends(),
-            radius_of_gyration=between("radius_of_gyration", radius_of_gyration),
-            torsional_stiffness=between("torsional_stiffness", torsional_stiffness),
-            polar_inertia_per_length=between("polar_inertia_per_length", polar_inertia_per_length),
+            theory=theory,
+            shear_form=shear_form,
             name=name,
         )
 
@@ -257,10 +289,24 @@ class Beam(ByValue):
     def column_at(self, name: str, interval: Integers, fraction: Array) -> Array:
         """Return a table's values inside intervals; what no logarithm is for runs straight."""
         values = getattr(self, name)
-        if name in LOGARITHMIC:
-            return self.at(values, interval, fraction)
         a, b = values[interval, 0], values[interval, 1]
-        return np.asarray(a + (b - a) * fraction)
+        how = self.interpolation if name in LOGARITHMIC else "linear"
+        if name != "shear_stiffness":
+            return np.asarray(interpolated(a, b, fraction, how))
+        rigid = np.isinf(a)
+        a, b = np.where(rigid, 1.0, a), np.where(rigid, 1.0, b)
+        return np.where(rigid, np.inf, interpolated(a, b, fraction, how))
+
+    @property
+    def is_timoshenko(self) -> bool:
+        """Whether shear and rotary inertia count, as far as they are given."""
+        given = self.shear_stiffness is not None or self.rotary_inertia_per_length is not None
+        return given if self.theory is None else self.theory == "timoshenko"
+
+    @property
+    def has_shear(self) -> bool:
+        """Whether a flexibility in shear counts."""
+        return self.is_timoshenko and self.shear_stiffness is not None
 
     def axial_force_at(self, interval: Integers, fraction: Array) -> Array:
         """Return N [N] inside intervals, at fractions 0 ... 1 of their lengths."""
@@ -323,6 +369,9 @@ class Beam(ByValue):
         for column in law.columns:
             table = given(self, family, column)
             varying |= table[:, 0] != table[:, 1]
+        for name in FAMILIES[family].used(self):
+            table = getattr(self, name)
+            varying |= table[:, 0] != table[:, 1]
         return varying
 
     def chain(self, family: FamilyName, refinement: int = 1) -> Chain:
@@ -339,51 +388,7 @@ class Beam(ByValue):
         -------
         Chain
         """
-        varies = self.varies(family)
-        if not varies.any():
-            return self._uniform_chain(family)
-        cell, start, size = coarsest_steps(self, family)
-        times = np.where(varies[cell], refinement, 1)
-        which, number = copies(times)
-        interval, size = cell[which], (size / times)[which]
-        start = start[which] + number * size
-        halves = np.where(varies[interval], 2, 1)
-        step, second = copies(halves)
-
-        def average(values: Callable[[Integers, Array], Array]) -> Array:
-            """Return weighted means of the values at the Gauss points, one for each segment."""
-            at_points = np.stack([values(interval, start + size * g) for g in GAUSS], axis=-1)
-            return np.asarray(halved(at_points)[step, second])
-
-        first = np.concatenate([[0], np.cumsum(np.bincount(interval[step]))])
-        length = (np.diff(self.x)[interval] * size / halves)[step]
-        law = FAMILIES[family].law
-        columns = {name: self._average(family, name, average) for name in law.columns}
-        left, right, points = self.points(family, first)
-        return Chain(law, length, columns, left, right, points)
-
-    def _average(
-        self,
-        family: FamilyName,
-        column: str,
-        average: Callable[[Callable[[Integers, Array], Array]], Array],
-    ) -> Array:
-        """Return a column of the chain: means, of the inverse where it is a stiffness."""
-        if column == "axial_force":
-            return average(self.axial_force_at)
-        name = FAMILIES[family].columns[column]
-        if column == "stiffness":
-            return np.asarray(1.0 / average(lambda k, t: 1.0 / self.column_at(name, k, t)))
-        return average(lambda k, t: self.column_at(name, k, t))
-
-    def _uniform_chain(self, family: FamilyName) -> Chain:
-        """Return one segment for every interval: nothing varies in any."""
-        law = FAMILIES[family].law
-        left, right, points = self.points(family)
-        columns = {
-            name: np.ascontiguousarray(given(self, family, name)[:, 0]) for name in law.columns
-        }
-        return Chain(law, np.diff(self.x), columns, left, right, points)
+        return make_chain(self, family, refinement)
 
     def points(
         self, family: FamilyName, first: Integers | None = None
@@ -421,6 +426,8 @@ class Beam(ByValue):
         return {}
 
     def _find_freedoms(self, family: FamilyName) -> Array:
+        if any(np.any(getattr(self, name)) for name in FAMILIES[family].holding(self)):
+            return np.zeros((0, 2))
         left, right, points = self.points(family)
         law = FAMILIES[family].law
         held = [(0.0, law.ends[left]), (self.length, law.ends[right])]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from antinode.arguments import choice
 from antinode.arrays import Array, Interpolation
@@ -17,12 +18,18 @@ from .families import FAMILIES, FamilyName
 if TYPE_CHECKING:
     from .beam import Beam
 
+Theory = Literal["euler_bernoulli", "timoshenko"]
+ShearForm = Literal["haringx", "engesser"]
+
 
 def check(beam: Beam) -> None:
     """Raise InputError unless shapes agree, x rises, and every property is in its range."""
     n = len(beam.x) - 1
     check_stations(beam.x)
     choice("interpolation", beam.interpolation, Interpolation)
+    choice("shear_form", beam.shear_form, ShearForm)
+    if beam.theory is not None:
+        choice("theory", beam.theory, Theory)
     if not np.isfinite(beam.x).all():
         raise InputError("x: every breakpoint must be a finite number [m]")
     rises = beam.x[1:] > beam.x[:-1]
@@ -36,6 +43,7 @@ def check(beam: Beam) -> None:
         if values is not None:
             _check_table(name, values, n)
     _check_complete(beam)
+    check_shear(beam)
     if beam.attachments:
         check_attachments(beam.attachments, beam.x)
         _check_supports(beam)
@@ -91,12 +99,16 @@ def _check_supports(beam: Beam) -> None:
 def _check_table(name: str, values: Array, n: int) -> None:
     if values.shape != (n, 2):
         raise InputError(f"{name} has shape {values.shape}; {n} intervals need shape ({n}, 2)")
-    ok = np.isfinite(values) if name == "axial_force" else np.isfinite(values) & (values > 0)
-    if ok.all():
-        return
-    for row, side in np.argwhere(~ok)[:1]:
-        allowed = "finite" if name == "axial_force" else "positive and finite"
-        raise InputError(f"{name} must be {allowed}: interval {row + 1} has {values[row, side]:g}")
+    ok = allowed_values(name, values)
+    for row, side in () if ok.all() else np.argwhere(~ok)[:1]:
+        wanted = ALLOWED.get(name, "positive and finite")
+        raise InputError(f"{name} must be {wanted}: interval {row + 1} has {values[row, side]:g}")
+    if name in _MAY_BE_INFINITE:
+        for row in np.flatnonzero(np.isinf(values[:, 0]) != np.isinf(values[:, 1]))[:1]:
+            raise InputError(
+                f"{name} runs from {values[row, 0]:g} to {values[row, 1]:g} in interval {row + 1}: "
+                "give inf at both ends of an interval (two rows at one x are a jump), or at neither"
+            )
 
 
 TABLES = (
@@ -107,9 +119,67 @@ TABLES = (
     "radius_of_gyration",
     "torsional_stiffness",
     "polar_inertia_per_length",
+    "shear_stiffness",
+    "rotary_inertia_per_length",
+    "foundation_stiffness",
+    "added_mass_per_length",
+    "loss_factor",
 )
 
-LOGARITHMIC = ("mass_per_length", "bending_stiffness", "axial_stiffness", "torsional_stiffness")
+_MAY_BE_ZERO = (
+    "rotary_inertia_per_length",
+    "foundation_stiffness",
+    "added_mass_per_length",
+    "loss_factor",
+)
+_MAY_BE_INFINITE = ("shear_stiffness",)
+ALLOWED = {
+    "axial_force": "finite",
+    **dict.fromkeys(_MAY_BE_ZERO, "zero or positive, and finite"),
+    **dict.fromkeys(_MAY_BE_INFINITE, "positive, or inf"),
+}
+"""What the values of a table may be where it is not "positive and finite"."""
+
+
+def allowed_values(name: str, values: Array) -> npt.NDArray[np.bool_]:
+    """Tell which values a table of this name may have."""
+    if name in _MAY_BE_INFINITE:
+        return np.asarray(values > 0)
+    finite = np.isfinite(values)
+    if name == "axial_force":
+        return finite
+    return np.asarray(finite & ((values >= 0) if name in _MAY_BE_ZERO else (values > 0)))
+
+
+def check_shear(beam: Beam) -> None:
+    """Raise InputError where the axial force is beyond what the stiffness in shear can bear.
+
+    Engesser's form needs N < kGA, Haringx' kGA + N > 0: there a short piece of the beam, sheared,
+    gives way of itself.
+    """
+    if beam.shear_stiffness is None or not beam.has_shear:
+        return
+    k = np.arange(len(beam.x) - 1)[:, None]
+    N = beam.axial_force_at(k, np.linspace(0.0, 1.0, 3))
+    kGA = beam.column_at("shear_stiffness", k, np.linspace(0.0, 1.0, 3))
+    engesser = beam.shear_form == "engesser"
+    bad = kGA <= N if engesser else kGA + N <= 0
+    for row, at in () if not bad.any() else np.argwhere(bad)[:1]:
+        form = "N < kGA in Engesser's form" if engesser else "kGA + N > 0 in Haringx' form"
+        raise InputError(
+            f"axial_force is {N[row, at]:.4g} N in interval {row + 1}, where shear_stiffness is "
+            f"{kGA[row, at]:.4g} N; {form} of shear: check both, or set shear_form = "
+            f"'{'haringx' if engesser else 'engesser'}'"
+        )
+
+
+LOGARITHMIC = (
+    "mass_per_length",
+    "bending_stiffness",
+    "axial_stiffness",
+    "torsional_stiffness",
+    "shear_stiffness",
+)
 """Those that vary exponentially where the interpolation is "log"; the others vary linearly."""
 
 

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from antinode.riccati import laws
 from antinode.riccati.laws import Law
+
+if TYPE_CHECKING:
+    from .beam import Beam
 
 FamilyName = laws.LawName
 BENDING: FamilyName = "bending"
@@ -50,6 +53,8 @@ class Family:
         What its rigid modes do: moving without, and with, a turn where it has both.
     quantities : tuple of Quantity
         The components of its states (equation 56).
+    more : tuple of str
+        The beam's tables for what the law may have besides its columns.
     freedoms : tuple of int
         Of the displacements, among three translations along x, y, z and three rotations about them.
     """
@@ -66,6 +71,7 @@ class Family:
     rigid: tuple[str, ...]
     quantities: tuple[Quantity, ...]
     freedoms: tuple[int, ...]
+    more: tuple[str, ...] = ()
 
     @property
     def name(self) -> FamilyName:
@@ -79,8 +85,29 @@ class Family:
 
     @property
     def tables(self) -> tuple[str, ...]:
-        """The beam's tables that it reads."""
+        """The beam's tables that it must read."""
         return tuple(self.columns.values())
+
+    def used(self, beam: Beam) -> tuple[str, ...]:
+        """Return the tables of a beam that it reads besides: those that are given, and count."""
+        given = [name for name in self.more if getattr(beam, name) is not None]
+        if not beam.is_timoshenko:
+            given = [name for name in given if name not in TIMOSHENKO]
+        elif "rotary_inertia_per_length" in given and "radius_of_gyration" in given:
+            given.remove("radius_of_gyration")
+        return tuple(given)
+
+    def steep(self, beam: Beam) -> tuple[str, ...]:
+        """Return those of them whose ratio over a step counts, as it does for any stiffness."""
+        return tuple(name for name in self.used(beam) if name in ("shear_stiffness",))
+
+    def holding(self, beam: Beam) -> tuple[str, ...]:
+        """Return the tables of a beam that hold it where they are not zero."""
+        return tuple(name for name in self.used(beam) if name == "foundation_stiffness")
+
+
+TIMOSHENKO = "shear_stiffness", "rotary_inertia_per_length", "radius_of_gyration"
+"""Tables that Euler-Bernoulli's theory leaves out."""
 
 
 _AXIAL_END = {"clamped": "fixed", "pinned": "fixed", "free": "free", "sliding": "free"}
@@ -109,6 +136,7 @@ FAMILIES: Mapping[FamilyName, Family] = {
             Quantity("Q_y", "N", "lateral force M' + N Y'"),
         ),
         freedoms=(1, 5),
+        more=(*TIMOSHENKO, "foundation_stiffness", "added_mass_per_length"),
     ),
     LONGITUDINAL: Family(
         law=laws.BAR,

@@ -24,6 +24,7 @@ from antinode.text import counted
 
 from .axial import apply_loads
 from .beam import Beam
+from .checks import ALLOWED, ShearForm, Theory, allowed_values
 from .ends import AxialEnd, End, Ends, TorsionEnd
 from .limits import check_limits
 from .parts import MassTable, check_on_body
@@ -39,6 +40,11 @@ COLUMNS = (
     "radius_of_gyration",
     "torsional_stiffness",
     "polar_inertia_per_length",
+    "shear_stiffness",
+    "rotary_inertia_per_length",
+    "foundation_stiffness",
+    "added_mass_per_length",
+    "loss_factor",
 )
 
 
@@ -107,6 +113,23 @@ class BeamStations(Frozen):
     polar_inertia_per_length: Annotated[Array, Column("kg m")] | None = Field(
         None, description="rho I_p, about the axis [kg m]; beside torsional_stiffness"
     )
+    shear_stiffness: Annotated[Array, Column("N")] | None = Field(
+        None, description="kGA [N], or inf; without it rigid in shear"
+    )
+    rotary_inertia_per_length: Annotated[Array, Column("kg m")] | None = Field(
+        None,
+        description="rho I of the section [kg m]; default mass_per_length times "
+        "radius_of_gyration^2 in Timoshenko's theory if that column is given, else 0",
+    )
+    foundation_stiffness: Annotated[Array, Column("N/m^2")] | None = Field(
+        None, description="of an elastic foundation, lateral [N/m^2]"
+    )
+    added_mass_per_length: Annotated[Array, Column("kg/m")] | None = Field(
+        None, description="of water that moves with the beam sideways [kg/m]: it has no weight"
+    )
+    loss_factor: Annotated[Array, Column("")] | None = Field(
+        None, description="of EI, kGA, EA and GJ [-]; for responses and complex modes only"
+    )
 
     @model_validator(mode="after")
     def _check_table(self) -> Self:
@@ -153,9 +176,9 @@ def _check_column(name: str, column: Array, rows: int) -> None:
         raise ValueError(
             f"{name} has {counted(len(column), 'row')}, but x has {rows}: give one value a row"
         )
-    ok = np.isfinite(column) & ((column > 0) | (name == "axial_force"))
-    for i in np.flatnonzero(~ok)[:1]:
-        allowed = "a finite number" if name == "axial_force" else "greater than 0 and finite"
+    for i in np.flatnonzero(~allowed_values(name, column))[:1]:
+        allowed = ALLOWED.get(name, "greater than 0 and finite")
+        allowed = "a finite number" if allowed == "finite" else allowed
         raise ValueError(
             f"{name}, row {i + 1}, is {column[i]:.10g}; it must be {allowed}: correct this row"
         )
@@ -168,6 +191,12 @@ class BeamTable(AttachmentTables):
     interpolation: Interpolation = Field(
         "step", description="how columns run between stations; axial_force linearly unless 'step'"
     )
+    theory: Theory | None = Field(
+        None,
+        description="default: timoshenko where shear_stiffness or rotary_inertia_per_length is "
+        "given; euler_bernoulli leaves both out",
+    )
+    shear_form: ShearForm = Field("haringx", description="how the axial force and shear meet")
     stations: BeamStations = Field(description="table along the beam, or the name of a CSV file")
     ends: BeamEnds = Field(BeamEnds(), description="how the ends are held")
     masses: tuple[MassTable, ...] = Field(
@@ -207,6 +236,13 @@ class BeamFile(Frozen):
             radius_of_gyration=stations.radius_of_gyration,
             torsional_stiffness=stations.torsional_stiffness,
             polar_inertia_per_length=stations.polar_inertia_per_length,
+            shear_stiffness=stations.shear_stiffness,
+            rotary_inertia_per_length=stations.rotary_inertia_per_length,
+            foundation_stiffness=stations.foundation_stiffness,
+            added_mass_per_length=stations.added_mass_per_length,
+            loss_factor=stations.loss_factor,
+            theory=table.theory,
+            shear_form=table.shear_form,
             name=table.name,
         ).with_attachments(*table.attachments())
         for part in table.masses:

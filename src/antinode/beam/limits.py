@@ -16,6 +16,7 @@ from antinode.errors import AntinodeError, ComputationError, InputError
 
 from .attachments import PointMass
 from .beam import Beam
+from .checks import ALLOWED
 from .families import FAMILIES
 
 LENGTHS = 1e-9, 1e9
@@ -57,10 +58,13 @@ def check_limits(beam: Beam) -> None:
             f"x runs from {beam.x[0]:g} to {beam.x[-1]:g} m; a beam may be {low:g} to {high:g} m "
             "long: check the unit of x"
         )
-    for name in dict.fromkeys(table for family in FAMILIES.values() for table in family.tables):
+    read = (table for family in FAMILIES.values() for table in (*family.tables, *family.more))
+    for name in dict.fromkeys(read):
         values = getattr(beam, name)
         if values is not None and name != "axial_force":
-            _check_property(name, values)
+            counted = values[np.isfinite(values) & (values != 0)]
+            if len(counted):
+                _check_property(name, counted, name not in ALLOWED)
     _check_point_masses(beam)
     _check_axial_force(beam)
 
@@ -76,14 +80,14 @@ def _check_point_masses(beam: Beam) -> None:
             )
 
 
-def _check_property(name: str, values: Array) -> None:
+def _check_property(name: str, values: Array, evenly: bool) -> None:
     (low, high), smallest, largest = SIZES, np.min(values), np.max(values)
     if not (low <= smallest and largest <= high):
         raise InputError(
             f"{name} runs from {smallest:g} to {largest:g}; {low:g} to {high:g} is allowed: "
             "check its unit"
         )
-    if largest > MOST_RATIO * smallest:
+    if evenly and largest > MOST_RATIO * smallest:
         raise InputError(
             f"{name} runs from {smallest:g} to {largest:g}; a ratio of at most {MOST_RATIO:g} is "
             "allowed: check each row's unit"

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from antinode.arrays import Array, Integers
+from antinode.riccati.chain import Chain
 
+from .checks import given
 from .families import FAMILIES, FamilyName
 
 if TYPE_CHECKING:
@@ -34,6 +37,83 @@ def copies(times: Integers) -> tuple[Integers, Integers]:
     return index, np.arange(len(index)) - (np.cumsum(times) - times)[index]
 
 
+Values = Callable[[Integers, Array], Array]
+"""Of a property inside intervals, at fractions of their lengths."""
+
+
+def make_chain(beam: Beam, family: FamilyName, refinement: int = 1) -> Chain:
+    """Represent a beam by uniform segments: `Beam.chain`."""
+    varies = beam.varies(family)
+    law = FAMILIES[family].law
+    if not varies.any():
+        k, left_end = np.arange(len(beam.x) - 1), np.zeros(len(beam.x) - 1)
+        columns = {name: np.array(v(k, left_end)) for name, v in _values(beam, family).items()}
+        left, right, points = beam.points(family)
+        return Chain(law, np.diff(beam.x), columns, left, right, points)
+    cell, start, size = coarsest_steps(beam, family)
+    times = np.where(varies[cell], refinement, 1)
+    which, number = copies(times)
+    interval, size = cell[which], (size / times)[which]
+    start = start[which] + number * size
+    halves = np.where(varies[interval], 2, 1)
+    step, second = copies(halves)
+
+    def average(values: Values) -> Array:
+        """Return weighted means of the values at the Gauss points, one for each segment."""
+        at_points = np.stack([values(interval, start + size * g) for g in GAUSS], axis=-1)
+        return np.asarray(halved(at_points)[step, second])
+
+    first = np.concatenate([[0], np.cumsum(np.bincount(interval[step]))])
+    length = (np.diff(beam.x)[interval] * size / halves)[step]
+    values = _values(beam, family)
+    EI = values.pop("stiffness")
+    flexibility = average(lambda k, t: 1.0 / EI(k, t))
+    columns = {name: average(of) for name, of in values.items()} | {"stiffness": 1.0 / flexibility}
+    left, right, points = beam.points(family, first)
+    return Chain(law, length, columns, left, right, points)
+
+
+def _values(beam: Beam, family: FamilyName) -> dict[str, Values]:
+    """Return what the columns of a chain are inside intervals, by their names."""
+
+    def table(name: str) -> Values:
+        return lambda k, t: beam.column_at(name, k, t)
+
+    entry, force = FAMILIES[family], beam.axial_force_at
+    for name in entry.law.columns:
+        given(beam, family, name)
+    values = {name: table(column) for name, column in entry.columns.items()}
+    if entry.law.has_axial_force:
+        values["axial_force"] = force
+    used = entry.used(beam)
+    if "added_mass_per_length" in used:
+        own, added = values["mass"], table("added_mass_per_length")
+        values["mass"] = lambda k, t: own(k, t) + added(k, t)
+    if "foundation_stiffness" in used:
+        values["foundation"] = table("foundation_stiffness")
+    if "rotary_inertia_per_length" in used:
+        values["rotary_inertia"] = table("rotary_inertia_per_length")
+    elif "radius_of_gyration" in used:
+        m, r = table("mass_per_length"), table("radius_of_gyration")
+        values["rotary_inertia"] = lambda k, t: m(k, t) * r(k, t) ** 2
+    if "shear_stiffness" in used:
+        values |= _shear(table("shear_stiffness"), force, beam.shear_form == "engesser")
+    return values
+
+
+def _shear(stiffness: Values, force: Values, engesser: bool) -> dict[str, Values]:
+    """Return s, sN and sN^2 of Haringx' form; Engesser's kGA is one that is smaller by N."""
+
+    def flexibility(k: Integers, t: Array) -> Array:
+        return np.asarray(1.0 / (stiffness(k, t) - (force(k, t) if engesser else 0.0)))
+
+    return {
+        "shear": flexibility,
+        "shear_turn": lambda k, t: flexibility(k, t) * force(k, t),
+        "shear_work": lambda k, t: flexibility(k, t) * force(k, t) ** 2,
+    }
+
+
 def coarsest_steps(beam: Beam, family: FamilyName) -> tuple[Integers, Array, Array]:
     """Divide intervals in which something varies until no step is long or steep.
 
@@ -46,13 +126,14 @@ def coarsest_steps(beam: Beam, family: FamilyName) -> tuple[Integers, Array, Arr
     start, size = np.zeros(len(interval)), np.ones(len(interval))
     columns, power = FAMILIES[family].columns, FAMILIES[family].law.power
     varies = beam.varies(family)
+    tables = [columns["mass"], columns["stiffness"], *FAMILIES[family].steep(beam)]
     for _ in range(_MOST_HALVINGS):
         ends = [
-            [beam.column_at(columns[name], interval, start + side * size) for side in (0.0, 1.0)]
-            for name in ("mass", "stiffness")
+            [beam.column_at(name, interval, start + side * size) for side in (0.0, 1.0)]
+            for name in tables
         ]
-        steepest = np.max([np.maximum(a / b, b / a) for a, b in ends], axis=0)
-        mass, stiffness = (np.sqrt(a * b) for a, b in ends)
+        steepest = np.max([_ratio(a, b) for a, b in ends], axis=0)
+        mass, stiffness = (np.sqrt(a * b) for a, b in ends[:2])
         phase = (mass / stiffness) ** (1 / power) * np.diff(beam.x)[interval] * size
         coarse = (steepest > _STEEPEST) | (phase > _LONGEST * np.sum(phase))
         pieces = np.where(coarse & varies[interval], 2, 1)
@@ -62,3 +143,9 @@ def coarsest_steps(beam: Beam, family: FamilyName) -> tuple[Integers, Array, Arr
         interval, size = interval[which], (size / pieces)[which]
         start = start[which] + second * size
     return interval, start, size
+
+
+def _ratio(a: Array, b: Array) -> Array:
+    """Return the larger over the smaller of two numbers, which may be infinite both."""
+    with np.errstate(invalid="ignore"):
+        return np.where(a == b, 1.0, np.maximum(a / b, b / a))

@@ -23,7 +23,7 @@ _MOST_COLUMNS = 100
 _MOST_CELLS = 1_000_000
 ENDS = ("left", "right", "left_axial", "right_axial", "left_torsion", "right_torsion")
 LOADS = ("gravity", "offset_weight")
-KEYS = ("name", "interpolation", *ENDS, *LOADS)
+KEYS = ("name", "interpolation", "theory", "shear_form", *ENDS, *LOADS)
 """Keys of the sheet `beam`."""
 ATTACHED = {
     "point_masses": {

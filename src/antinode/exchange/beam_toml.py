@@ -71,9 +71,16 @@ def head_tables(beam: Beam, stations: Stations) -> dict[str, Any]:
     return {
         "name": beam.name,
         "interpolation": stations.interpolation,
+        **shear_keys(beam),
         "stations": _columns(stations),
         "ends": ends,
     }
+
+
+def shear_keys(beam: Beam) -> dict[str, str]:
+    """Return theory and form of shear, where they are not the default."""
+    keys: dict[str, str] = {} if beam.theory is None else {"theory": beam.theory}
+    return keys if beam.shear_form == "haringx" else {**keys, "shear_form": beam.shear_form}
 
 
 def _columns(stations: Stations) -> dict[str, list[float]]:

@@ -6,6 +6,7 @@ from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.inputs.reading import COLUMN_UNITS
 
+from .beam_toml import shear_keys
 from .tabulated import Hull, Stations, tabulate
 
 
@@ -30,6 +31,8 @@ def left_out(beam: Beam) -> tuple[str, ...]:
         n = len(beam.attachments)
         text = f"{n} attachment is" if n == 1 else f"{n} attachments are"
         notes.append(f"{text} left out; write a .toml or .xlsx to keep them")
+    for key, value in shear_keys(beam).items():
+        notes.append(f"{key} = '{value}' is left out; write a .toml or .xlsx to keep it")
     if (beam.ends.left, beam.ends.right) != ("free", "free"):
         ends = f"{beam.ends.left} - {beam.ends.right}"
         notes.append(f"the ends, {ends}, are left out; write a .toml or .xlsx to keep them")

@@ -128,6 +128,8 @@ def _starts(tables: dict[str, Array], intervals: int) -> npt.NDArray[np.bool_]:
     starts = np.zeros(intervals, dtype=bool)
     starts[0] = True
     for table in tables.values():
-        scale = 1e-12 * np.max(np.abs(table))
-        starts[1:] |= np.abs(table[1:, 0] - table[:-1, 1]) > scale
+        left, right = table[1:, 0], table[:-1, 1]
+        scale = 1e-12 * np.max(np.abs(table), where=np.isfinite(table), initial=0.0)
+        with np.errstate(invalid="ignore"):
+            starts[1:] |= (left != right) & (np.abs(left - right) > scale)
     return starts

@@ -72,7 +72,8 @@ def _fill_beam(book: Any, tables: dict[str, Any]) -> None:
     columns, loads = tables["stations"], tables.get("loads", {})
     header = [f"{name} [{COLUMN_UNITS[name]}]" for name in columns]
     _fill(book, "stations", [header, *zip(*columns.values(), strict=True)])
-    pairs = [(key, tables[key]) for key in ("name", "interpolation")]
+    head = ("name", "interpolation", "theory", "shear_form")
+    pairs = [(key, tables[key]) for key in head if key in tables]
     pairs += [*tables["ends"].items(), *((k, v) for k, v in loads.items() if k in KEYS)]
     _fill(book, "beam", [("key", "value"), *pairs])
     attached = {"point_forces": loads.get("point_forces")} | tables

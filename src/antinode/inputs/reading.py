@@ -38,7 +38,13 @@ COLUMN_UNITS = {
     "wall": "m",
     "torsional_stiffness": "N m^2",
     "polar_inertia_per_length": "kg m",
+    "shear_stiffness": "N",
+    "rotary_inertia_per_length": "kg m",
+    "foundation_stiffness": "N/m^2",
+    "added_mass_per_length": "kg/m",
+    "loss_factor": "",
 }
+_MAY_BE_INFINITE = ("shear_stiffness",)
 """SI unit of every column that a table of stations may have."""
 
 
@@ -346,6 +352,7 @@ _SYMBOLS = {
     "EI": "bending_stiffness",
     "EA": "axial_stiffness",
     "GJ": "torsional_stiffness",
+    "kGA": "shear_stiffness",
 }
 
 
@@ -393,7 +400,7 @@ def _numbers(row: Row, names: list[str], path: Path) -> list[float]:
                 f"{where}, column {name}: received {short(cell)}; {why} (its unit stands in the "
                 "header)"
             ) from None
-        if not math.isfinite(values[-1]):
+        if not math.isfinite(values[-1]) and name not in _MAY_BE_INFINITE:
             raise InputError(
                 f"{where}, column {name}: received {short(cell)}; give a finite number"
             )

@@ -35,6 +35,7 @@ from .rigid import rigid_modes
 _GROWTH = 4.0
 _LARGEST = 1e9  # times the force that the shortest compressed part would bear by itself
 _NO_FORCE = 1e-12  # share of the largest |N| below which compression is rounding
+_TRACE = 1e-9  # share of the stiffness in shear that must be left
 _WIDTH = 1e-11  # of the bracket, relative
 _NEAR = 1e-3  # relative distance of the next chain's factor, mostly
 _EVALUATIONS = 30  # of the chain that solved the modes, of one omega^2 each
@@ -100,23 +101,24 @@ def buckling(
     factors = _range_of_factors(beam)
     if factors is None:
         return None
+    factors = factors[0], min(factors[1], _sheared(beam))
     varies = bool(np.any(beam.varies(BENDING)))
     levels, refinement, guess = Refinement(tolerance / 2, coarse=_WIDTH), 1, None
     while True:
-        chain = _held(beam.chain(BENDING, refinement), "translation" in rigid)
-        found = _critical(solver, chain, int("rotation" in rigid), *factors, guess)
+        load = _loading(beam, refinement, "translation" in rigid)
+        found = _critical(solver, load, int("rotation" in rigid), *factors, guess)
         if found is None and (not varies or refinement > 16):
             return None
         if found is not None:
             guess = found[2]
-            loaded = _loaded(chain, guess)
-            levels.add(np.array([guess]), layer_length(loaded, varying_segments(beam, chain)))
+            loaded = load(guess)
+            levels.add(np.array([guess]), layer_length(loaded, varying_segments(beam, loaded)))
             if not varies or levels.met(levels.error):
                 error = float(levels.error[0]) if varies else 0.0
                 return _buckling(solver, loaded, found, float(levels.better[0]), error)
-        if 2 * len(chain.length) > _MOST_SEGMENTS:
+        if 2 * len(load(1.0).length) > _MOST_SEGMENTS:
             raise ComputationError(
-                f"the critical load did not converge to {tolerance:g} on {len(chain.length)} "
+                f"the critical load did not converge to {tolerance:g} on {len(load(1.0).length)} "
                 "segments; give the stations more smoothly, or ask for a larger tolerance"
             )
         refinement *= 2
@@ -197,23 +199,55 @@ def _held(chain: Chain, translates: bool) -> Chain:
     return replace(chain, left=chain.law.end_holding(chain.left, (0,))) if translates else chain
 
 
+Loading = Callable[[float], Chain]
+"""Of a beam: its chain under a factor times its axial force."""
+
+
+def _loading(beam: Beam, refinement: int, translates: bool) -> Loading:
+    """Return the chains of a beam; in Engesser's form the flexibility in shear depends on N too."""
+    if beam.has_shear and beam.shear_form == "engesser":
+        return lambda factor: _held(_under(beam, factor).chain(BENDING, refinement), translates)
+    chain = _held(beam.chain(BENDING, refinement), translates)
+    return lambda factor: _loaded(chain, factor)
+
+
+def _under(beam: Beam, factor: float) -> Beam:
+    """Return a beam under a factor times its axial force."""
+    N, a = factor * beam.axial_force, factor * beam.axial_acceleration
+    return replace(beam, axial_force=N, axial_acceleration=a)
+
+
 def _loaded(chain: Chain, factor: float) -> Chain:
     """Return the chain under `factor` times its axial force."""
+    powers = {"axial_force": factor, "shear_turn": factor, "shear_work": factor * factor}
+    shared = powers.keys() & chain.columns.keys()
+    columns = {name: powers[name] * chain.columns[name] for name in shared}
     points = tuple(replace(p, own_load=factor * p.own_load) for p in chain.points)
-    return replace(chain.with_columns(axial_force=factor * chain.axial_force), points=points)
+    return replace(chain.with_columns(**columns), points=points)
 
 
-def _statics(solver: Backend, chain: Chain, factor: float) -> Sample:
+def _sheared(beam: Beam) -> float:
+    """Return the factor at which the stiffness in shear is used up somewhere, less a trace."""
+    if not beam.has_shear:
+        return np.inf
+    k = np.arange(len(beam.x) - 1)[:, None]
+    t = np.linspace(0.0, 1.0, 33)
+    sign = 1.0 if beam.shear_form == "engesser" else -1.0
+    share = sign * beam.axial_force_at(k, t) / beam.column_at("shear_stiffness", k, t)
+    return (1 - _TRACE) / float(np.max(share)) if np.any(share > 0) else np.inf
+
+
+def _statics(solver: Backend, load: Loading, factor: float) -> Sample:
     """Return how many eigenvalues are negative under a factor, and the determinant."""
-    found = solver.evaluate(_loaded(chain, factor), [0.0])
+    found = solver.evaluate(load(factor), [0.0])
     return int(found.below[0]), float(found.characteristic[0])
 
 
 def _critical(
-    solver: Backend, chain: Chain, rotations: int, low: float, most: float, guess: float | None
+    solver: Backend, load: Loading, rotations: int, low: float, most: float, guess: float | None
 ) -> tuple[float, float, float] | None:
     """Bracket the load factor at which more eigenvalues are negative than rigid rotations."""
-    statics = partial(_statics, solver, chain)
+    statics = partial(_statics, solver, load)
     allowed = min(rotations, statics(low)[0])
     while statics(low)[0] > allowed:
         low /= 1e3
@@ -232,9 +266,9 @@ def _beyond(
     statics: Callable[[float], Sample], allowed: int, start: float, most: float
 ) -> float | None:
     """Return a factor under which more diverge than is allowed; None if there is none."""
-    high = start
+    high = min(start, most)
     while statics(high)[0] <= allowed:
-        high *= _GROWTH
-        if high > most:
+        if high == most:
             return None
+        high = min(_GROWTH * high, most)
     return high

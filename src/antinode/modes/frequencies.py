@@ -17,7 +17,7 @@ import numpy as np
 from antinode.arguments import ByValue, whole, within
 from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
-from antinode.beam.families import BENDING
+from antinode.beam.families import BENDING, FAMILIES
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.beam.representation import LIMITS
 from antinode.riccati.chains import Tables
@@ -129,6 +129,8 @@ def _by_modes(beam: Beam, modes: int, tolerance: float, backend: BackendName) ->
 
 def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Frequencies | None:
     """Solve with steps halved until two extrapolated results agree; None where that fails."""
+    if FAMILIES[BENDING].used(beam):
+        return None
     held: tuple[str, str, tuple[Point, ...]] = beam.ends.left, beam.ends.right, ()
     rigid, acceleration, mass_left = rigid_modes_of(beam.ends, BENDING), 0.0, _NOT_READ
     if beam.attachments or beam.axial_acceleration:

@@ -110,8 +110,12 @@ def _cubic_peaks(chain: Chain, start: Array, end: Array) -> tuple[Array, Array]:
 
     The height is 0 where the slope keeps its sign.
     """
-    h, K = chain.length[:, None], chain.stiffness[:, None]
-    Y, s, t = start[..., 0], chain.law.slope(K, start) * h, chain.law.slope(K, end) * h
+    h = chain.length[:, None]
+    columns = {name: values[:, None] for name, values in chain.columns.items()}
+    Y, s, t = (
+        *(start[..., 0], chain.law.slope(columns, start) * h),
+        chain.law.slope(columns, end) * h,
+    )
     rise = end[..., 0] - Y
     b, a = 3 * rise - 2 * s - t, s + t - 2 * rise  # Y + s x + b x^2 + a x^3
     turns = s * t < 0
@@ -136,14 +140,15 @@ class _Peaks(NamedTuple):
 
     def heights(self, place: Array) -> Array:
         """Return abs(displacement) at its peaks, near places given as shares of the segments."""
-        h, K = self.chain.length[self.segment], self.chain.stiffness[self.segment]
+        h = self.chain.length[self.segment]
+        columns = {name: v[self.segment] for name, v in self.chain.columns.items()}
         height = np.zeros(len(place))
         steps = [np.zeros(len(place)), place]
-        slopes = [self.chain.law.slope(K, self._at(steps[0]))]
+        slopes = [self.chain.law.slope(columns, self._at(steps[0]))]
         for _ in range(3):
             z = self._at(steps[-1] * h)
             height = np.maximum(height, np.abs(z[:, 0]))
-            slopes.append(self.chain.law.slope(K, z))
+            slopes.append(self.chain.law.slope(columns, z))
             change = slopes[-1] - slopes[-2]
             safe = np.where(change == 0, 1.0, change)
             secant = steps[-1] - slopes[-1] * (steps[-1] - steps[-2]) / safe
@@ -210,7 +215,7 @@ def model_error_parts(beam: Beam, chain: Chain, energies: Energies) -> ModelErro
     else:
         r2 = chain.stiffness / EA
     kGA = EA / (4 * 1.3)
-    rotary = (chain.mass * r2)[:, None] * energies.squares.slope
+    rotary = (chain.mass * r2)[:, None] * energies.squares.turn
     shear = energies.squares.shear / kGA[:, None]
     return ModelErrorParts(rotary / energies.mass, shear / energies.mass)
 

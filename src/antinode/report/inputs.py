@@ -114,6 +114,11 @@ _SPOKEN = {
     "radius_of_gyration": "radius of gyration",
     "torsional_stiffness": "GJ",
     "polar_inertia_per_length": "ρI_p",
+    "shear_stiffness": "kGA",
+    "rotary_inertia_per_length": "ρI",
+    "foundation_stiffness": "foundation",
+    "added_mass_per_length": "added mass",
+    "loss_factor": "loss factor",
 }
 
 
@@ -167,6 +172,11 @@ def beam_inputs(file: BeamFile, beam: Beam) -> list[Section]:
         ("radius_of_gyration", "m"),
         ("torsional_stiffness", "N m^2"),
         ("polar_inertia_per_length", "kg m"),
+        ("shear_stiffness", "N"),
+        ("rotary_inertia_per_length", "kg m"),
+        ("foundation_stiffness", "N/m²"),
+        ("added_mass_per_length", "kg/m"),
+        ("loss_factor", ""),
     )
     columns = [
         (name, unit, np.asarray(getattr(stations, name)))

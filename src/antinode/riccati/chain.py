@@ -21,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -78,6 +78,11 @@ class Chain:
     def axial_force(self) -> Array:
         """N [N], compression positive, of a law that has it; shape (n,)."""
         return self.columns["axial_force"]
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it has the columns that its law must have, and no others."""
+        return len(self.columns) == len(self.law.columns)
 
     def with_columns(self, **columns: Array) -> Chain:
         """Return the chain with some of its columns replaced."""
@@ -318,9 +323,9 @@ def end_frame(chain: Chain, side: int, units: Array) -> Array:
     return chain.law.admitted((chain.left, chain.right)[side], _beside(chain, side), units)
 
 
-def _beside(chain: Chain, side: int) -> dict[str, float]:
+def _beside(chain: Chain, side: int) -> dict[str, Any]:
     """Return the columns of the segment beside an end."""
-    return {name: float(values[side]) for name, values in chain.columns.items()}
+    return {name: values[side] for name, values in chain.columns.items()}
 
 
 def characteristic(chain: Chain, F: Array, units: Array) -> Array:

@@ -65,7 +65,7 @@ class Point:
 
 def lateral_load(point: Point, omega2: Array) -> Array:
     """Return the step of a mass with springs in bending, shape (k, 4, 4)."""
-    T = np.tile(np.eye(4), (len(omega2), 1, 1))
+    T = np.tile(np.eye(4, dtype=np.result_type(omega2, 1.0)), (len(omega2), 1, 1))
     m, d, J = point.mass, point.offset, point.inertia
     T[:, 3, 0] = omega2 * m - point.spring
     T[:, 3, 1] = omega2 * m * d
@@ -98,7 +98,7 @@ def lateral_energies(point: Point, state: Array, last: bool) -> tuple[Array, Arr
 
 def wave_load(point: Point, omega2: Array, sign: float) -> Array:
     """Return the step of a mass with its spring along one freedom, shape (k, 2, 2)."""
-    T = np.tile(np.eye(2), (len(omega2), 1, 1))
+    T = np.tile(np.eye(2, dtype=np.result_type(omega2, 1.0)), (len(omega2), 1, 1))
     T[:, 1, 0] = sign * (point.spring - omega2 * point.mass)
     return T
 

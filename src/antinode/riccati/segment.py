@@ -1,16 +1,25 @@
 r"""Transfer matrices of one uniform segment under constant axial force (equations 48-62).
 
-Bending, state ``z = [Y, theta, M, Q]`` with ``M = EI Y''`` and ``Q = M' + N Y'``::
+Lateral motion, state ``z = [Y, psi, M, Q]``, psi the turn of the section and ``M = EI psi'``::
 
-    z' = A z,   A = [[0, 1, 0, 0], [0, 0, 1/EI, 0], [0, -N, 0, 1], [m omega^2, 0, 0, 0]]
+    z' = A z,   A = [[0, alpha, 0, -s], [0, 0, f, 0], [0, -beta, 0, alpha], [mu, 0, 0, 0]]
 
-so that ``Y'''' + b Y'' - c Y = 0`` with ``b = N/EI``, ``c = m omega^2/EI`` (equations 50-51).
+with f = 1/EI; mu = m omega^2 - k of mass and foundation; and of the axial force N, the shear
+flexibility s = 1/kGA and the rotary inertia rho I (Haringx; docs/theory/beam.md)::
+
+    alpha = 1 + s N,   beta = N + s N^2 + rho I omega^2
+
+Euler-Bernoulli has s = 0, rho I = 0: psi = Y', Q = M' + N Y' (equation 48). A is Hamiltonian, and
+its characteristic equation biquadratic: ``lambda^4 + b lambda^2 - c = 0``, ``b = s mu + f beta``,
+``c = f mu kappa``, ``kappa = alpha^2 - s beta`` (equations 50-51 for s = 0).
 A bar has the state ``[X, Q]`` with ``Q = -EA X'``, a shaft ``[phi, T]`` with ``T = GJ phi'``.
 
 The paper writes U = B(x) B(0)^-1 with the four roots of the quartic (equation 61). Here U is
 written with the one solution ``g`` that starts as ``g = g' = g'' = 0, g''' = 1`` and its
 derivatives: a power series in ``b h^2`` and ``c h^4``, real for every sign of omega^2 and N, also
 where roots coincide. N > 0 is compression. The series needs short segments: see `LONGEST_STEP`.
+
+Everything may be complex: omega^2 off the real axis, stiffness with loss. Bounds use moduli.
 """
 
 from __future__ import annotations
@@ -26,21 +35,21 @@ LONGEST_STEP = 1.5
 """Largest wave number times length for which the series are meant, and used, here."""
 
 
-def wave_number(bending_stiffness: Array, axial_force: Array, inertia: Array) -> Array:
-    """Return a bound on the modulus of the four roots lambda of equation 50.
+def wave_number(b: Array, c: Array) -> Array:
+    """Return a bound on the modulus of the four roots of ``lambda^4 + b lambda^2 - c = 0``.
 
     Parameters
     ----------
-    bending_stiffness, axial_force, inertia : array
-        EI [N m^2], N [N] (compression positive) and m omega^2 [N/m^2], broadcast together.
+    b, c : array
+        Or bounds on their moduli [1/m^2, 1/m^4], broadcast together.
 
     Returns
     -------
     array
         ``sqrt(|b|/2 + sqrt(b^2/4 + |c|))`` [1/m].
     """
-    b = np.abs(axial_force) / bending_stiffness / 2
-    return np.sqrt(b + np.sqrt(b * b + np.abs(inertia) / bending_stiffness))
+    half = np.abs(b) / 2
+    return np.asarray(np.sqrt(half + np.sqrt(half * half + np.abs(c))))
 
 
 @cache
@@ -64,7 +73,7 @@ def fundamental(h: Array, b: Array, c: Array) -> tuple[Array, Array, Array, Arra
     Parameters
     ----------
     h, b, c : array
-        Length [m], N/EI [1/m^2] and m omega^2/EI [1/m^4], broadcast together; with
+        Length [m], b [1/m^2] and c [1/m^4], real or complex, broadcast together; with
         ``wave_number * h`` at most about `LONGEST_STEP`.
 
     Returns
@@ -73,10 +82,11 @@ def fundamental(h: Array, b: Array, c: Array) -> tuple[Array, Array, Array, Arra
         ``g, g', g'', g'''`` [m^3, m^2, m, 1].
     """
     h, beta, gamma = np.broadcast_arrays(h, -b * h * h, c * h**4)
-    step = math.sqrt(float(np.max(np.abs(beta) / 2 + np.sqrt(beta**2 / 4 + np.abs(gamma)))))
+    size = np.abs(beta)
+    step = math.sqrt(float(np.max(size / 2 + np.sqrt(size**2 / 4 + np.abs(gamma)))))
     coefficients = _inverse_factorials(_terms_needed(step))
     terms = coefficients.shape[1]
-    q = np.empty((terms, *h.shape))
+    q = np.empty((terms, *h.shape), np.result_type(beta, gamma))
     q[0], q[1] = 1.0, beta
     for k in range(2, terms):
         q[k] = beta * q[k - 1] + gamma * q[k - 2]
@@ -84,35 +94,43 @@ def fundamental(h: Array, b: Array, c: Array) -> tuple[Array, Array, Array, Arra
     return h**3 * sums[0], h**2 * sums[1], h * sums[2], sums[3]
 
 
-def bending_transfer(
-    h: Array, bending_stiffness: Array, axial_force: Array, inertia: Array
+def lateral_transfer(
+    h: Array,
+    stiffness: Array,
+    turning: Array,
+    inertia: Array,
+    shear: Array | float = 0.0,
+    coupling: Array | float = 1.0,
 ) -> Array:
-    """Return the bending transfer matrix U of uniform segments (equations 58, 61, 62).
+    """Return the lateral transfer matrix U of uniform segments (equations 58, 61, 62).
 
     Parameters
     ----------
-    h, bending_stiffness, axial_force, inertia : array
-        Length [m], EI [N m^2], N [N] (compression positive), m omega^2 [N/m^2]; broadcast together.
+    h, stiffness, turning, inertia : array
+        Length [m], EI [N m^2], beta [N], mu [N/m^2], real or complex; broadcast together.
+    shear, coupling : array or float
+        s [1/N] and alpha.
 
     Returns
     -------
     array, shape (..., 4, 4)
-        ``z(h) = U z(0)``, ``z = [Y, theta, M, Q]``.
+        ``z(h) = U z(0)``, ``z = [Y, psi, M, Q]``.
     """
-    EI, mw = bending_stiffness, inertia
-    b, c = axial_force / EI, inertia / EI
-    g, g1, g2, g3 = fundamental(h, b, c)
-    U = np.empty((*g.shape, 4, 4))
-    U[..., 0, 0] = U[..., 3, 3] = g3 + b * g1
-    U[..., 0, 1] = U[..., 2, 3] = g2
-    U[..., 0, 2] = U[..., 1, 3] = g1 / EI
-    U[..., 0, 3] = g / EI
-    U[..., 1, 0] = U[..., 3, 2] = c * g
-    U[..., 1, 1] = U[..., 2, 2] = g3
-    U[..., 1, 2] = g2 / EI
-    U[..., 2, 0] = U[..., 3, 1] = mw * g1
-    U[..., 2, 1] = mw * g - axial_force * g2
-    U[..., 3, 0] = mw * (g2 + b * g)
+    EI, beta, mu, s, alpha = stiffness, turning, inertia, shear, coupling
+    kappa, s_mu = alpha * alpha - s * beta, s * mu
+    of_force, of_inertia = beta / EI, mu / EI * kappa
+    g, g1, g2, g3 = fundamental(h, of_force + s_mu, of_inertia)
+    U = np.empty((*g.shape, 4, 4), g.dtype)
+    U[..., 0, 0] = U[..., 3, 3] = g3 + of_force * g1
+    U[..., 0, 1] = U[..., 2, 3] = alpha * g2
+    U[..., 0, 2] = U[..., 1, 3] = alpha * g1 / EI
+    U[..., 0, 3] = kappa * g / EI - s * g2
+    U[..., 1, 0] = U[..., 3, 2] = alpha * mu / EI * g
+    U[..., 1, 1] = U[..., 2, 2] = g3 + s_mu * g1
+    U[..., 1, 2] = (g2 + s_mu * g) / EI
+    U[..., 2, 0] = U[..., 3, 1] = alpha * mu * g1
+    U[..., 2, 1] = kappa * mu * g - beta * g2
+    U[..., 3, 0] = mu * (g2 + of_force * g)
     return U
 
 
@@ -122,8 +140,8 @@ def wave_transfer(h: Array, stiffness: Array, inertia: Array, sign: float) -> Ar
     Parameters
     ----------
     h, stiffness, inertia : array
-        Length [m], K and m omega^2; broadcast together. K is EA [N] of a bar, GJ [N m^2] of a
-        shaft, m its mass or polar inertia per length.
+        Length [m], K and m omega^2, real or complex; broadcast together. K is EA [N] of a bar,
+        GJ [N m^2] of a shaft, m its mass or polar inertia per length.
     sign : float
         s of the force ``F = s K u'``: -1 for a bar, 1 for a shaft.
 
@@ -135,12 +153,12 @@ def wave_transfer(h: Array, stiffness: Array, inertia: Array, sign: float) -> Ar
     c = inertia / stiffness
     h, z = np.broadcast_arrays(h, -c * h * h)
     coefficients = _inverse_factorials(_terms_needed(math.sqrt(float(np.max(np.abs(z))))))[2:]
-    powers = np.empty((coefficients.shape[1], *z.shape))
+    powers = np.empty((coefficients.shape[1], *z.shape), z.dtype)
     powers[0] = 1.0
     for k in range(1, len(powers)):
         powers[k] = powers[k - 1] * z
     sine, cosine = (coefficients @ powers.reshape(len(powers), -1)).reshape(2, *h.shape)
-    U = np.empty((*h.shape, 2, 2))
+    U = np.empty((*h.shape, 2, 2), z.dtype)
     U[..., 0, 0] = U[..., 1, 1] = cosine
     U[..., 0, 1] = sign * (h * sine) / stiffness
     U[..., 1, 0] = -sign * (h * sine) * inertia

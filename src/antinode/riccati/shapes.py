@@ -298,7 +298,7 @@ def integrate_squares(chain: Chain, states: Array, omega2: Array) -> Squares:
     omega2 : array, shape (k,)
     """
     phase = largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length
-    total = np.zeros((4, len(chain.length), len(omega2)))
+    total = np.zeros((len(Squares._fields), len(chain.length), len(omega2)))
     for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
         z = propagate(chain, states[:-1], omega2, point * chain.length)
         total += weight * chain.length[:, None] * chain.law.squares(chain.columns, z)

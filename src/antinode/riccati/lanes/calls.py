@@ -62,7 +62,12 @@ def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
         The characteristic function is scaled to the last minors of each omega^2: bounded by 1.
     """
     asked = np.atleast_1d(np.asarray(omega2, dtype=float))
-    return evaluate_readable(chain, asked) if _needs_frames(chain) else SingleChain(chain)(asked)
+    return SingleChain(chain)(asked) if _is_known(chain) else evaluate_readable(chain, asked)
+
+
+def _is_known(chain: Chain) -> bool:
+    """Tell whether the compiled form knows all columns of a chain, and its supports."""
+    return chain.is_plain and not _needs_frames(chain)
 
 
 def _needs_frames(chain: Chain) -> bool:
@@ -241,7 +246,7 @@ def find_eigenvalues(
 
     Where determinants do not do - some supports, modes that nearly coincide - that function does.
     """
-    found = None if _needs_frames(chain) else _by_determinants(chain, wanted, zeros, width)
+    found = _by_determinants(chain, wanted, zeros, width) if _is_known(chain) else None
     if found is not None and check_certificate(found):
         return found
     return find_readable(chain, wanted, zeros=zeros, width=width, expected=expected)

@@ -251,7 +251,7 @@ def carry(left, right, back_left, back_right, node, state, units, z):
 
 @compiled
 def squares(h, EI, N, inertia, scale, units, states, shares, weights, scratch, total):
-    """Add up the integrals of Y^2, theta^2, M^2 and M'^2 over every segment, by Gauss points.
+    """Add up the integrals of Y^2, psi^2, M^2, V^2 and Q^2 over every segment, by Gauss points.
 
     total is indexed [which, segment, mode], in SI.
     """
@@ -275,3 +275,4 @@ def squares(h, EI, N, inertia, scale, units, states, shares, weights, scratch, t
                 total[1, i, lane] += weight * (slope * unit[1]) ** 2
                 total[2, i, lane] += weight * (there[2, lane] * unit[2]) ** 2
                 total[3, i, lane] += weight * shear**2
+                total[4, i, lane] += weight * (there[3, lane] * unit[3]) ** 2

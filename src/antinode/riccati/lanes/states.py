@@ -33,7 +33,11 @@ def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
 
 def _is_special(chain: Chain, multiplicity: Integers) -> bool:
     held = any(point.holds for point in chain.points)
-    return not FORMS[chain.law].shapes or held or bool(np.any(multiplicity > 1))
+    return not _is_known(chain) or held or bool(np.any(multiplicity > 1))
+
+
+def _is_known(chain: Chain) -> bool:
+    return FORMS[chain.law].shapes and chain.is_plain
 
 
 class _LaneChain:
@@ -97,14 +101,14 @@ def _lane_points(chain: Chain, omega2: Array, units: Array) -> tuple[Integers, A
 def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies:
     """Return modal mass and stiffness of modes: `riccati.shapes.mode_energies`, compiled."""
     phase = float(np.max(largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length))
-    if not FORMS[chain.law].shapes or phase > LONGEST_STEP:
+    if not _is_known(chain) or phase > LONGEST_STEP:
         return shapes.mode_energies(chain, states, omega2)
     share, weight = shapes.gauss_rule(phase)
     parts = []
     for i in range(0, len(omega2), LANES):
         own = _LaneChain(chain, omega2[i : i + LANES])
         these = np.array(states[:, i : i + LANES], order="C")
-        total = np.zeros((4, *these[:-1, :, 0].shape))
+        total = np.zeros((len(Squares._fields), *these[:-1, :, 0].shape))
         library().call(
             "squares",
             *(own.length, own.EI, own.N, own.inertia, own.scale, own.units),
