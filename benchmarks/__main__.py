@@ -23,7 +23,8 @@ from scipy.linalg import eigh  # noqa: E402
 import antinode as an  # noqa: E402
 from antinode.riccati.lanes.laws import FORMS  # noqa: E402
 from antinode.riccati.lanes.library import library  # noqa: E402
-from antinode.riccati.lanes.workspace import LANES, OMEGA2, ROWS, new_chain, new_lanes  # noqa: E402  # noqa: E402
+from antinode.riccati.lanes.structures import Kept  # noqa: E402
+from antinode.riccati.lanes.workspace import LANES, OMEGA2, ROWS, new_chain, new_lanes  # noqa: E402
 from antinode.riccati.laws import BENDING  # noqa: E402
 
 from . import c, table  # noqa: E402
@@ -73,8 +74,8 @@ def step():
     own = new_chain(FORMS[BENDING].number, 0, 0, SEGMENTS)
     own.length[:], own.mass[:] = h, m / np.mean(m)
     own.stiffness[:], own.force[:] = EI / np.mean(EI), N * one
-    table, lanes, times = np.empty((ROWS, 2 * SEGMENTS)), new_lanes(), 1000
-    pieces, state = library().call("prepare", own, 1.2e5, table)[0], lanes.state
+    table, lanes, times = np.empty((ROWS, 2 * SEGMENTS)), Kept(new_lanes()), 1000
+    pieces, state = library().call("prepare", own, 1.2e5, table)[0], lanes.structure.state
     table = np.ascontiguousarray(table[:, :pieces])
     state[OMEGA2 : OMEGA2 + LANES] = np.linspace(100, 1.2e5, LANES)
 

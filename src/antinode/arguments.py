@@ -16,9 +16,8 @@ from .text import short
 
 def choice(name: str, value: object, literal: Any) -> None:
     """Raise InputError unless an argument is one of the words of a `Literal`."""
-    allowed = get_args(literal)
-    if not (isinstance(value, str) and value in allowed):
-        words = ", ".join(map(repr, allowed))
+    if not (isinstance(value, str) and value in literal.__args__):
+        words = ", ".join(map(repr, get_args(literal)))
         raise InputError(f"{name} is {short(value)}; allowed are {words}")
 
 
@@ -43,16 +42,15 @@ def whole(name: str, value: object, most: int, what: str = "") -> int:
 
 def within(name: str, value: object, low: float, high: float, what: str = "") -> float:
     """Return an argument that is a real number from `low` to `high`, or raise InputError."""
-    told = f"{name} is {short(value)}; allowed are {low:g} ... {high:g}{what}"
-    if isinstance(value, str | bytes | complex):
-        raise InputError(told)
     try:
+        if isinstance(value, str | bytes | complex):
+            raise TypeError(type(value))
         number = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError) as error:
-        raise InputError(told) from error
-    if not low <= number <= high:
-        raise InputError(told)
-    return number
+        if low <= number <= high:
+            return number
+    except (TypeError, ValueError):
+        pass
+    raise InputError(f"{name} is {short(value)}; allowed are {low:g} ... {high:g}{what}")
 
 
 def numbers(name: str, values: Any) -> Array:

@@ -180,7 +180,9 @@ class Beam(ByValue):
             raise TypeError(f"a beam has no column {unknown[0]!r}; it may have {', '.join(TABLES)}")
         stations = np.atleast_1d(numbers("x", x))
         check_stations(stations)
-        kept = (np.diff(stations) != 0) | (interpolation == "step")
+        step = interpolation == "step"
+        kept = (stations[1:] != stations[:-1]) | step
+        whole = step or kept.all()
         columns["mass_per_length"], columns["bending_stiffness"] = (
             mass_per_length,
             bending_stiffness,
@@ -189,17 +191,18 @@ class Beam(ByValue):
         tables: dict[str, Any] = {}
         for column, values in columns.items():
             if values is not None:
-                rows = _column(column, values, len(stations), interpolation)
-                right = rows[: len(kept)] if interpolation == "step" else rows[1:]
-                sides = np.stack([rows[: len(kept)], right], axis=1)
-                tables[column] = owned(column, sides[kept])
+                rows, n = _column(column, values, len(stations), interpolation), len(kept)
+                table = np.empty((n, 2))
+                table[:, 0], table[:, 1] = rows[:n], rows[:n] if step else rows[1:]
+                tables[column] = table = table if whole else table[kept]
+                table.flags.writeable = False
         if not {"mass_per_length", "bending_stiffness"} <= tables.keys():
             raise InputError("mass_per_length and bending_stiffness are needed at every station")
         return cls(
-            np.append(stations[:-1][kept], stations[-1:]),
+            stations if whole else np.append(stations[:-1][kept], stations[-1:]),
             **tables,
             interpolation=interpolation,
-            ends=ends or Ends(),
+            ends=ends or FREE,
             theory=theory,
             shear_form=shear_form,
             name=name,

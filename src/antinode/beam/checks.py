@@ -30,14 +30,7 @@ def check(beam: Beam) -> None:
     choice("shear_form", beam.shear_form, ShearForm)
     if beam.theory is not None:
         choice("theory", beam.theory, Theory)
-    if not np.isfinite(beam.x).all():
-        raise InputError("x: every breakpoint must be a finite number [m]")
-    rises = beam.x[1:] > beam.x[:-1]
-    for k in () if rises.all() else np.flatnonzero(~rises)[:1]:
-        raise InputError(
-            f"x must increase from row to row: row {k + 2} has {beam.x[k + 1]:g} m "
-            f"after {beam.x[k]:g} m in row {k + 1}"
-        )
+    _check_rising(beam.x)
     for name in TABLES:
         values = getattr(beam, name)
         if values is not None:
@@ -62,6 +55,19 @@ def check_stations(x: Array) -> None:
         raise InputError(f"a beam needs at least two breakpoints x; received {received}")
 
 
+def _check_rising(x: Array) -> None:
+    rises = x[1:] > x[:-1]
+    if rises.all() and x[0] > -np.inf and x[-1] < np.inf:
+        return
+    if not np.isfinite(x).all():
+        raise InputError("x: every breakpoint must be a finite number [m]")
+    k = int(np.argmin(rises))
+    raise InputError(
+        f"x must increase from row to row: row {k + 2} has {x[k + 1]:g} m "
+        f"after {x[k]:g} m in row {k + 1}"
+    )
+
+
 def check_rows(name: str, column: Array, rows: int, interpolation: Interpolation) -> None:
     """Raise InputError unless a column has a value for each station, or step, of a table."""
     choice("interpolation", interpolation, Interpolation)
@@ -78,8 +84,10 @@ def _check_complete(beam: Beam) -> None:
     """Refuse one column of a family without the other, but for what every beam has."""
     for name, family in FAMILIES.items():
         absent = [table for table in family.tables if getattr(beam, table) is None]
+        if not absent:
+            continue
         there = [table for table in family.tables if table not in (*absent, *_ALWAYS)]
-        if absent and there:
+        if there:
             raise InputError(
                 f"{there[0]} is given, but {absent[0]} is missing: {name} modes need both; give "
                 "both, or neither"
@@ -99,6 +107,9 @@ def _check_supports(beam: Beam) -> None:
 def _check_table(name: str, values: Array, n: int) -> None:
     if values.shape != (n, 2):
         raise InputError(f"{name} has shape {values.shape}; {n} intervals need shape ({n}, 2)")
+    least = -np.inf if name == "axial_force" else 0.0
+    if least < values.min() and values.max() < np.inf:  # no NaN: every table may have these
+        return
     ok = allowed_values(name, values)
     for row, side in () if ok.all() else np.argwhere(~ok)[:1]:
         wanted = ALLOWED.get(name, "positive and finite")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Literal
 
 from antinode.arguments import choice
@@ -44,10 +44,10 @@ class Ends:
     right_torsion: TorsionEnd | None = None
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value, sideways = getattr(self, field.name), field.name in ("left", "right")
+        for name, value in vars(self).items():
+            sideways = name in ("left", "right")
             if sideways or value is not None:
-                choice(f"the end {field.name}", value, End if sideways else AxialEnd)
+                choice(f"the end {name}", value, End if sideways else AxialEnd)
 
     def of(self, name: FamilyName) -> tuple[str, str]:
         """Return the two ends as the solver names them for a family of modes."""

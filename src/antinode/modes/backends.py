@@ -5,12 +5,13 @@ It is chosen by name, openly: nothing that was solved before, and no file on the
 
 from __future__ import annotations
 
-from typing import Literal, Protocol, get_args
+from typing import Literal, Protocol
 
 import numpy.typing as npt
 
+from antinode.arguments import choice
 from antinode.arrays import Array, Integers
-from antinode.errors import ComputationError, InputError
+from antinode.errors import ComputationError
 from antinode.riccati.chain import Chain, Evaluation
 from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
 from antinode.riccati.roots import Eigenvalue
@@ -88,9 +89,7 @@ def choose(name: BackendName = "auto") -> Backend:
     ComputationError
         If numba's code is missing and cannot be made.
     """
-    if name not in get_args(BackendName):
-        allowed = ", ".join(map(repr, get_args(BackendName)))
-        raise InputError(f"backend is {name!r}; allowed are {allowed}")
+    choice("backend", name, BackendName)
     if (AUTO if name == "auto" else name) == "numpy":
         from antinode.riccati import readable
 

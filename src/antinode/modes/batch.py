@@ -17,7 +17,7 @@ import numpy as np
 from antinode.arguments import ByValue, choice, owned, whole
 from antinode.arrays import Array, Integers
 from antinode.beam.ends import FREE, Ends
-from antinode.beam.families import BENDING, FAMILIES, FamilyName
+from antinode.beam.families import BENDING, FAMILIES, Family, FamilyName
 from antinode.errors import InputError
 from antinode.riccati.chain import Chain
 from antinode.riccati.chains import ChainRoots, Chains
@@ -111,28 +111,35 @@ class BeamBatch(ByValue):
             if values.shape != shape:
                 same = values.size == shape[0] * n
                 values = values.reshape(shape) if same else np.broadcast_to(values, shape)
-            kept = np.ascontiguousarray(values).view()
-            kept.flags.writeable = False
-            object.__setattr__(self, name, kept)
+            if not values.flags.c_contiguous:
+                values = np.ascontiguousarray(values)
+                values.flags.writeable = False
+            object.__setattr__(self, name, values)
 
     def _given(self) -> dict[str, Array]:
         """Return the length and the family's tables, with no axial force where none is given."""
         family = FAMILIES[self.family]
-        given = [name for name in _TABLES if getattr(self, name) is not None]
+        tables, force = family.tables, family.columns.get("axial_force")
+        for name in _TABLES:
+            if (getattr(self, name) is None) == (name in tables) and name != force:
+                self._refuse(family)
+        if force and getattr(self, force) is None:
+            object.__setattr__(self, force, np.zeros(1))
+        return {name: owned(name, getattr(self, name)) for name in ("length", *tables)}
+
+    def _refuse(self, family: Family) -> None:
+        """Say which arrays are missing, and which are of another family."""
         force = family.columns.get("axial_force")
+        given = [name for name in _TABLES if getattr(self, name) is not None]
         missing = [name for name in family.tables if name not in given and name != force]
         foreign = [name for name in given if name not in family.tables]
-        if missing or foreign:
-            wrong = [f"{name} is missing" for name in missing]
-            wrong += [f"{name} is given, of another family: leave it out" for name in foreign]
-            allowed = ", ".join(f"{t} (optional)" if t == force else t for t in family.tables)
-            raise InputError(
-                f"a batch of family {self.family!r}: {'; '.join(wrong)}; "
-                f"its arrays are length, {allowed}"
-            )
-        if force and force not in given:
-            object.__setattr__(self, force, np.zeros(1))
-        return {name: owned(name, getattr(self, name)) for name in ("length", *family.tables)}
+        wrong = [f"{name} is missing" for name in missing]
+        wrong += [f"{name} is given, of another family: leave it out" for name in foreign]
+        allowed = ", ".join(f"{t} (optional)" if t == force else t for t in family.tables)
+        raise InputError(
+            f"a batch of family {self.family!r}: {'; '.join(wrong)}; "
+            f"its arrays are length, {allowed}"
+        )
 
     def _varies_by_force(self, tables: dict[str, Array]) -> bool:
         """Tell whether all beams are of one structure, and only an axial force tells them apart."""
@@ -227,26 +234,31 @@ def solve_many(batch: BeamBatch, *, backend: BackendName = "auto") -> BatchResul
     solver = choose(backend)
     found = _solve(solver, batch)
     omega2, low, high, counts, rounding, reason, evaluations = found
-    if translates(
-        batch.ends, batch.family
-    ):  # past buckling its omega^2 = 0 lies above an elastic mode
-        reason[(reason == 0) & (omega2[:, 0] < 0)] = NOT_BRACKETED
-    if not np.isfinite(high).all():
-        reason[(reason == 0) & ~np.isfinite(high).all(axis=1)] = NOT_FINITE
-    if reason.any():
-        for row in np.flatnonzero(np.isin(reason, _ALONE)):
-            reason[row] = _alone(solver, batch, int(row), found)
-        failed = reason != 0
-        omega2[failed], low[failed], high[failed], counts[failed] = np.nan, np.nan, np.nan, -1
+    if reason.any() or not (omega2[:, 0].min() >= 0.0 and np.isfinite(high).all()):
+        _settle(solver, batch, found)
     bracket = np.empty((*omega2.shape, 2))
     low = np.subtract(low, rounding, out=bracket[..., 0])
     high = np.add(high, rounding, out=bracket[..., 1])
     if (low[:, 1:] <= high[:, :-1]).any():
         for row in np.flatnonzero(np.any(low[:, 1:] <= high[:, :-1], axis=1)):
             share_brackets(low[row], high[row], counts[row])
-    reason[omega2[:, 0] < 0] = PAST_BUCKLING
     error = np.maximum(high - omega2, omega2 - low)
     return BatchResult(omega2, bracket, counts, error, reason, evaluations)
+
+
+def _settle(solver: Backend, batch: BeamBatch, found: ChainRoots) -> None:
+    """Solve again, by itself, what failed and may not; set the reasons, NaN where one stays."""
+    omega2, low, high, counts, _, reason, _ = found
+    if translates(
+        batch.ends, batch.family
+    ):  # past buckling its omega^2 = 0 lies above an elastic mode
+        reason[(reason == 0) & (omega2[:, 0] < 0)] = NOT_BRACKETED
+    reason[(reason == 0) & ~np.isfinite(high).all(axis=1)] = NOT_FINITE
+    for row in np.flatnonzero(np.isin(reason, _ALONE)):
+        reason[row] = _alone(solver, batch, int(row), found)
+    failed = reason != 0
+    omega2[failed], low[failed], high[failed], counts[failed] = np.nan, np.nan, np.nan, -1
+    reason[omega2[:, 0] < 0] = PAST_BUCKLING
 
 
 def _solve(solver: Backend, batch: BeamBatch) -> ChainRoots:

@@ -72,10 +72,10 @@ class ChainRoots(NamedTuple):
         """Return results that are to be set."""
         omega2, low, high, rounding = np.zeros((4, chains, roots))
         counts = np.zeros((chains, roots, 2), np.int64)
-        return cls(
-            *(omega2, low, high, counts, rounding),
-            *(np.full(chains, reason, np.int64), np.zeros(chains, np.int64)),
-        )
+        reasons, evaluations = np.zeros((2, chains), np.int64)
+        if reason:
+            reasons[:] = reason
+        return cls(omega2, low, high, counts, rounding, reasons, evaluations)
 
 
 class Tables(NamedTuple):

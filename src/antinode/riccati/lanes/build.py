@@ -11,13 +11,17 @@ optimised and translated for itself, and wrappers for Python - is left away.
 
 from __future__ import annotations
 
+import ctypes
 import gc
 import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from . import compiling
 from .library import HELPERS, PREFIX
-from .structures import RESULTS, Kept
+from .structures import CONTIGUOUS, DATA, FLAGS, NOT_CALLED, SHAPE, Kept
 
 _WORD = 8
 
@@ -26,14 +30,31 @@ def machine_code() -> bytes:
     """Return the object file of all entries, each under its name after `PREFIX`."""
     import numba
 
-    from . import compiling
-
+    _check_arrays()
     compiling.use_numba(numba)
     parts = _gather_modules()
     from .entries import ENTRIES
 
     symbols = {_compile_entry(*ENTRIES[name]): PREFIX + name for name in ENTRIES}
     return _optimised(parts, symbols)
+
+
+def _check_arrays() -> None:
+    """Make sure that arrays keep their fields where `structures` says."""
+    sample = np.zeros((3, 5))[1:]
+
+    def field(place):
+        return ctypes.c_int64.from_address(id(sample) + place).value
+
+    sizes = (ctypes.c_int64 * 2).from_address(field(SHAPE))
+    whole, parts = field(FLAGS), sample[:, ::2]
+    if (
+        field(DATA) != sample.ctypes.data
+        or tuple(sizes) != sample.shape
+        or not whole & CONTIGUOUS
+        or ctypes.c_int64.from_address(id(parts) + FLAGS).value & CONTIGUOUS
+    ):
+        raise RuntimeError("numpy keeps arrays otherwise than this code expects")
 
 
 def _gather_modules() -> list[Any]:
@@ -66,76 +87,145 @@ def _gather_modules() -> list[Any]:
 
 
 def _compile_entry(function: Any, arguments: tuple[Any, ...]) -> str:
-    """Compile a function that takes one address; return its symbol."""
+    """Compile a function that takes the addresses of words and of results; return its symbol."""
     import numba
     from numba import types
 
     kept = [isinstance(value, Kept) for value in arguments]
     given = [v.structure if isinstance(v, Kept) else v for v in arguments]
-    unpack, give = _unpacking(types.Tuple([numba.typeof(v) for v in given]), kept), _give()
+    read = _Reading(types.Tuple([numba.typeof(v) for v in given]), kept)
+    all_contiguous, unpack, give = read.contiguity(), read.arguments(), _give()
 
-    def entry(words):
-        give(words, function(*unpack(words)))
+    def entry(words, results):
+        results[NOT_CALLED] = 0
+        if all_contiguous(words):
+            give(results, function(*unpack(words)))
+        else:
+            results[NOT_CALLED] = 1
 
-    signature = types.void(types.CPointer(types.int64))
-    made = numba.cfunc(signature, error_model="numpy", _nrt=False)(entry)
+    words = types.CPointer(types.int64)
+    made = numba.cfunc(
+        types.void(words, words),
+        error_model="numpy",
+        _nrt=False,
+        pipeline_class=compiling.few_passes(),
+    )(entry)
     return str(made._wrapper_name)
 
 
-def _unpacking(whole: Any, kept: list[bool]) -> Any:
-    """Return an intrinsic that makes arguments of the words that `structures.packed` makes.
+class _Reading:
+    """Intrinsics that read arguments of the words that `structures.words_of` makes.
 
-    The words of those that are kept stand where one word says.
+    Parameters
+    ----------
+    whole : numba tuple type
+        Of the arguments.
+    kept : list of bool
+        Which of them are kept: their words stand where one word says.
     """
-    from numba.core import cgutils, types
-    from numba.extending import intrinsic
+
+    def __init__(self, whole: Any, kept: list[bool]) -> None:
+        self.whole, self.kept = whole, kept
+
+    def arguments(self) -> Any:
+        """Return an intrinsic that makes the arguments."""
+        from numba.extending import intrinsic
+
+        def unpack(_typing, words):
+            def generate(context, builder, _signature, arguments):
+                items = [
+                    _value(context, builder, typ, iter(leaves))
+                    for typ, leaves in self._leaves(builder, arguments[0])
+                ]
+                return context.make_tuple(builder, self.whole, items)
+
+            return self.whole(words), generate
+
+        return intrinsic(unpack)
+
+    def contiguity(self) -> Any:
+        """Return an intrinsic that tells whether all arrays are contiguous."""
+        from numba.core import types
+        from numba.extending import intrinsic
+
+        def all_contiguous(_typing, words):
+            def generate(_context, builder, _signature, arguments):
+                pointer = arguments[0].type
+                flags = pointer.pointee(CONTIGUOUS)
+                for _, leaves in self._leaves(builder, arguments[0]):
+                    for typ, word in leaves:
+                        if isinstance(typ, types.Array):
+                            head = builder.inttoptr(word, pointer)
+                            flags = builder.and_(flags, _word(builder, head, FLAGS // _WORD))
+                return builder.icmp_signed("!=", flags, flags.type(0))
+
+            return types.boolean(words), generate
+
+        return intrinsic(all_contiguous)
+
+    def _leaves(self, builder: Any, words: Any) -> Any:
+        """Yield the type of every argument, and of all in it the type and the word."""
+        place = 0
+        for typ, apart in zip(self.whole, self.kept, strict=True):
+            types_in = list(_flat(typ))
+            start, base = place, words
+            if apart:
+                start, base = 0, builder.inttoptr(_word(builder, words, place), words.type)
+            place += 1 if apart else len(types_in)
+            yield typ, [(t, _word(builder, base, start + k)) for k, t in enumerate(types_in)]
+
+
+def _flat(typ: Any) -> Any:
+    """Yield the types of all arrays and numbers in one."""
+    from numba.core import types
+
+    if isinstance(typ, types.BaseTuple):
+        for each in typ:
+            yield from _flat(each)
+    else:
+        yield typ
+
+
+def _word(builder: Any, base: Any, place: int) -> Any:
+    from numba.core import cgutils
+
+    return builder.load(cgutils.gep_inbounds(builder, base, place))
+
+
+def _value(context: Any, builder: Any, typ: Any, leaves: Any) -> Any:
+    """Return a value of its words."""
+    from numba.core import types
+
+    if isinstance(typ, types.BaseTuple):
+        items = [_value(context, builder, each, leaves) for each in typ]
+        return context.make_tuple(builder, typ, items)
+    _, word = next(leaves)
+    if isinstance(typ, types.Array):
+        return _array(context, builder, typ, word)
+    if isinstance(typ, types.Float):
+        return builder.bitcast(word, context.get_value_type(typ))
+    return context.cast(builder, word, types.int64, typ)
+
+
+def _array(context: Any, builder: Any, typ: Any, word: Any) -> Any:
+    """Return an array that is a view of the object at an address."""
+    from numba.core import types
     from numba.np import arrayobj
 
-    def word(builder, words, place):
-        return builder.load(cgutils.gep_inbounds(builder, words, place))
-
-    def array(context, builder, typ, words, place):
-        made = arrayobj.make_array(typ)(context, builder)
-        data = builder.inttoptr(word(builder, words, place), made.data.type)
-        shape = [word(builder, words, place + 1 + k) for k in range(typ.ndim)]
-        itemsize = context.get_abi_sizeof(context.get_data_type(typ.dtype))
-        strides = [context.get_constant(types.intp, itemsize)]
-        for size in shape[:0:-1]:
-            strides.insert(0, builder.mul(strides[0], size))
-        arrayobj.populate_array(
-            made, data, shape, strides, context.get_constant(types.intp, itemsize), None
-        )
-        return made._getvalue(), place + 1 + typ.ndim
-
-    def value(context, builder, typ, words, place):
-        if isinstance(typ, types.Array):
-            return array(context, builder, typ, words, place)
-        if isinstance(typ, types.BaseTuple):
-            items = []
-            for each in typ:
-                item, place = value(context, builder, each, words, place)
-                items.append(item)
-            return context.make_tuple(builder, typ, items), place
-        raw = word(builder, words, place)
-        if isinstance(typ, types.Float):
-            return builder.bitcast(raw, context.get_value_type(typ)), place + 1
-        return context.cast(builder, raw, types.int64, typ), place + 1
-
-    def unpack(_typing, words):
-        def generate(context, builder, _signature, arguments):
-            items, place, words = [], RESULTS, arguments[0]
-            for typ, apart in zip(whole, kept, strict=True):
-                if apart:
-                    elsewhere = builder.inttoptr(word(builder, words, place), words.type)
-                    item, place = value(context, builder, typ, elsewhere, 0)[0], place + 1
-                else:
-                    item, place = value(context, builder, typ, words, place)
-                items.append(item)
-            return context.make_tuple(builder, whole, items)
-
-        return whole(words), generate
-
-    return intrinsic(unpack)
+    made = arrayobj.make_array(typ)(context, builder)
+    pointer = word.type.as_pointer()
+    head = builder.inttoptr(word, pointer)
+    data = builder.inttoptr(_word(builder, head, DATA // _WORD), made.data.type)
+    sizes = builder.inttoptr(_word(builder, head, SHAPE // _WORD), pointer)
+    shape = [_word(builder, sizes, k) for k in range(typ.ndim)]
+    itemsize = context.get_constant(
+        types.intp, context.get_abi_sizeof(context.get_data_type(typ.dtype))
+    )
+    strides = [itemsize]
+    for size in shape[:0:-1]:
+        strides.insert(0, builder.mul(strides[0], size))
+    arrayobj.populate_array(made, data, shape, strides, itemsize, None)
+    return made._getvalue()
 
 
 def _give() -> Any:

@@ -22,7 +22,8 @@ from .library import library
 from .scratch import Need, new_table, scratch
 from .single import Found, SingleChain
 from .states import mode_energies, mode_states
-from .workspace import NO_POINTS, POINT, ROWS, Interior, Nodes, Task, Warmth, new_chain
+from .structures import Kept
+from .workspace import NO_POINTS, POINT, ROWS, Interior, Nodes, Task, Warmth
 from .workspace import Chain as Own
 
 __all__ = [
@@ -95,8 +96,11 @@ def solve_chains(chains: Chains, below: int, number: int, width: float) -> Chain
     given, n = _whole(chains), chains.length.shape[1]
     own, found = _own(chains), ChainRoots.empty(len(chains), number)
     warmth = Warmth(
-        *(np.full(1, -1), np.zeros(number), np.zeros(number)),
-        *(_weights(chains, below, number), np.zeros((2, number))),
+        neighbour=np.full(1, -1),
+        omega2=np.zeros(number),
+        slope=np.zeros(number),
+        weights=_weights(chains, below, number),
+        quotient=np.zeros((2, number)),
     )
     task, search, row = Task(below, width, True), scratch.search(number), 0
     table = np.empty((ROWS, n + n // 2 + 8))
@@ -112,15 +116,21 @@ def solve_chains(chains: Chains, below: int, number: int, width: float) -> Chain
 def _whole(chains: Chains) -> tuple[Array, ...]:
     """Return the arrays of chains, with a row for each but for the length, where one may do."""
     shape = chains.axial_force.shape
-    rest = (np.ascontiguousarray(np.broadcast_to(v, shape)) for v in chains.arrays[1:])
-    return np.ascontiguousarray(chains.length), *rest
+
+    def whole(values: Array) -> Array:
+        if values.shape != shape:
+            values = np.broadcast_to(values, shape)
+        return values if values.flags.c_contiguous else np.ascontiguousarray(values)
+
+    m, stiffness, N = (whole(values) for values in chains.arrays[1:])
+    return np.ascontiguousarray(chains.length), m, stiffness, N
 
 
-def _own(chains: Chains) -> Own:
+def _own(chains: Chains) -> Kept[Own]:
     """Return room for one of them."""
     form = FORMS[chains.law]
     ends = form.ends[chains.left], form.ends[chains.right]
-    return new_chain(form.number, *ends, chains.length.shape[1])
+    return scratch.chain(form.number, *ends, chains.length.shape[1])
 
 
 def _weights(chains: Chains, below: int, roots: int) -> Array:
@@ -170,12 +180,13 @@ def certify_guesses(chains: Chains, guess: Array, below: int, width: float) -> C
         With two evaluations a root where the guess held.
     """
     n, number = chains.axial_force.shape[1], guess.shape[1]
-    found, own = ChainRoots.empty(len(chains), number), _own(chains)
+    found, kept = ChainRoots.empty(len(chains), number), _own(chains)
+    own = kept.structure
     own.length[:], own.mass[:] = chains.length[0], chains.mass[0]
     own.stiffness[:] = chains.stiffness[0]
     library().call(
         "certify_rows",
-        *(np.ascontiguousarray(chains.axial_force), np.ascontiguousarray(guess), own),
+        *(np.ascontiguousarray(chains.axial_force), np.ascontiguousarray(guess), kept),
         *(np.zeros(n), Task(below, width, True), np.zeros(number), np.empty((ROWS, n + 64))),
         *(scratch.lanes, scratch.search(number), found),
     )

@@ -8,6 +8,7 @@ not imported: `riccati.lanes.library` loads the machine code.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 _FAST = {"contract", "nsz", "arcp"}
@@ -38,7 +39,41 @@ def summing(function: Any) -> Any:
 
 
 def _mark(function: Any, fastmath: set[str]) -> Any:
-    return _numba[0].njit(**_OPTIONS, fastmath=fastmath)(function) if _numba else function
+    if not _numba:
+        return function
+    options = {**_OPTIONS, "pipeline_class": few_passes()}
+    return _numba[0].njit(**options, fastmath=fastmath)(function)
+
+
+@cache
+def few_passes() -> Any:
+    """Return a pipeline of numba's with those passes alone that functions here need.
+
+    They have no closures, contexts or objects, inline nothing, and prune no branches.
+    """
+    from numba.core import compiler, typed_passes, untyped_passes
+    from numba.core.compiler_machinery import PassManager
+
+    class FewPasses(compiler.CompilerBase):
+        def define_pipelines(self):
+            manager = PassManager("few passes")
+            for which in (
+                untyped_passes.TranslateByteCode,
+                untyped_passes.FixupArgs,
+                untyped_passes.IRProcessing,
+                untyped_passes.GenericRewrites,
+                untyped_passes.ReconstructSSA,
+                typed_passes.NopythonTypeInference,
+                typed_passes.PreLowerStripPhis,
+                typed_passes.IRLegalization,
+                typed_passes.NativeLowering,
+                typed_passes.NoPythonBackend,
+            ):
+                manager.add_pass(which, which.__name__)
+            manager.finalize()
+            return [manager]
+
+    return FewPasses
 
 
 def wide_vectors():

@@ -30,13 +30,14 @@ _f1, _f2, _f3, _f4 = (np.zeros((1,) * dimensions) for dimensions in range(1, 5))
 _i1, _i2 = (np.zeros((1,) * dimensions, np.int64) for dimensions in range(1, 3))
 _i, _f, _b = 1, 1.0, True
 
-_chain, _lanes, _search = new_chain(1, 1, 1, 1), new_lanes(), Kept(new_search(1))
+_chain, _lanes, _search = new_chain(1, 1, 1, 1), Kept(new_lanes()), Kept(new_search(1))
+_kept_chain = Kept(_chain)
 _task, _warmth = Task(1, 1.0, True), Warmth(_i1, _f1, _f1, _f3, _f2)
 _interior = Interior(1, 1, 1.0, True, 1.0, 1.0, 1)
 _found = ChainRoots.empty(1, 1)
 
 ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
-    "make_dimensionless": (rows.make_dimensionless, (_chain,)),
+    "scale": (rows.scale, (_chain, _f1)),
     "prepare": (laws.prepare, (_chain, _f, _f2)),
     "evaluate": (passing.evaluate, (_chain, _f1, _f2, _lanes, _i1, _f1)),
     "find_roots": (
@@ -45,11 +46,11 @@ ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     ),
     "solve_rows": (
         rows.solve_rows,
-        ((_f2, _f2, _f2, _f2), _i, _chain, _task, _warmth, _f2, _lanes, _search, _found),
+        ((_f2, _f2, _f2, _f2), _i, _kept_chain, _task, _warmth, _f2, _lanes, _search, _found),
     ),
     "certify_rows": (
         rows.certify_rows,
-        (_f2, _f2, _chain, _f1, _task, _f1, _f2, _lanes, _search, _found),
+        (_f2, _f2, _kept_chain, _f1, _task, _f1, _f2, _lanes, _search, _found),
     ),
     "solve_levels": (
         levels.solve_levels,

@@ -24,7 +24,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from .structures import packed
+from .structures import HEAD, NOT_CALLED, Results, layout_of, words_of
 
 PREFIX = "antinode_"
 """Of the symbols of entries."""
@@ -73,19 +73,29 @@ class Library:
         self._object = llvm.ObjectFileRef.from_data(code)
         self._engine.add_object_file(self._object)
         self._engine.finalize_object()
-        self._functions: dict[str, Any] = {}
+        self._entries: dict[str, tuple[Any, struct.Struct]] = {}
 
-    def call(self, name: str, *arguments: Any, results: str = "qqq") -> tuple[Any, ...]:
-        """Call a function; return its results, read as `struct` does."""
-        words = packed(arguments)
-        self._function(name)((ctypes.c_char * len(words)).from_buffer(words))
-        return struct.unpack_from(f"={results}", words)
+    def call(self, name: str, *arguments: Any) -> tuple[Any, ...]:
+        """Call a function; return what it gives, whole numbers and floats as words.
 
-    def _function(self, name: str) -> Any:
-        if name not in self._functions:
-            address = self._engine.get_function_address(PREFIX + name)
-            self._functions[name] = ctypes.CFUNCTYPE(None, ctypes.c_void_p)(address)
-        return self._functions[name]
+        Raises
+        ------
+        ValueError
+            If an array is not contiguous.
+        """
+        words, results = words_of(arguments), Results()
+        function, layout = self._entries.get(name) or self._entry(name, words)
+        function(layout.pack(*words), results)
+        if results[NOT_CALLED]:
+            raise ValueError(f"an array that {name} takes is not contiguous")
+        return results[:NOT_CALLED]
+
+    def _entry(self, name: str, words: list[Any]) -> tuple[Any, struct.Struct]:
+        """Return a function, and how its words are written: as those of its first call."""
+        address = self._engine.get_function_address(PREFIX + name)
+        function = ctypes.CFUNCTYPE(None, ctypes.c_char_p, ctypes.c_void_p)(address)
+        self._entries[name] = function, layout_of(words)
+        return self._entries[name]
 
 
 def library() -> Library:
@@ -96,9 +106,10 @@ def library() -> Library:
     LibraryError
         If they cannot be made, or loaded.
     """
-    with _loading:
-        if not _loaded:
-            _loaded.append(Library(_code()))
+    if not _loaded:
+        with _loading:
+            if not _loaded:
+                _loaded.append(Library(_code()))
     return _loaded[0]
 
 
@@ -153,7 +164,7 @@ def _key() -> str:
     features = llvm.get_host_cpu_features().flatten()
     for part in (
         *(version("numba"), version("llvmlite"), version("numpy"), platform.python_version()),
-        *(llvm.get_process_triple(), llvm.get_host_cpu_name(), features),
+        *(llvm.get_process_triple(), llvm.get_host_cpu_name(), features, str(HEAD)),
     ):
         found.update(part.encode() + b"\n")
     return found.hexdigest()[:24]

@@ -56,6 +56,12 @@ def make_dimensionless(chain):
     return laws.omega2_unit(chain.law, L, m0, K0), L, m0, K0
 
 
+@compiled
+def scale(chain, units):
+    """Make a chain dimensionless; set what `make_dimensionless` returns."""
+    units[0], units[1], units[2], units[3] = make_dimensionless(chain)
+
+
 @summing
 def _quotients(weights, mass, stiffness, force, quotient):
     """Set Rayleigh's quotients of given shapes for a chain [rad^2/s^2]."""

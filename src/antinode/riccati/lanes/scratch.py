@@ -10,7 +10,7 @@ import numpy as np
 from antinode.riccati.arrays import Array
 
 from .structures import Kept
-from .workspace import ROWS, Levels, Search, new_lanes, new_levels, new_search
+from .workspace import ROWS, Chain, Levels, Search, new_chain, new_lanes, new_levels, new_search
 
 _KEPT = 16  # sizes of each kind
 
@@ -36,8 +36,9 @@ class _Scratch(threading.local):
     """Structures of one thread, by their size."""
 
     def __init__(self) -> None:
-        self.lanes = new_lanes()
+        self.lanes = Kept(new_lanes())
         self.columns = new_table(0)
+        self.chains: dict[tuple[int, ...], Kept[Chain]] = {}
         self.searches: dict[int, Kept[Search]] = {}
         self.beams: dict[tuple[int, int, int], Kept[Levels]] = {}
 
@@ -46,6 +47,14 @@ class _Scratch(threading.local):
         if self.columns.shape[1] < pieces:
             self.columns = new_table(pieces)
         return self.columns
+
+    def chain(self, law: int, left: int, right: int, segments: int) -> Kept[Chain]:
+        """Return room for a chain without points."""
+        key = law, left, right, segments
+        if key not in self.chains:
+            _make_room(self.chains)
+            self.chains[key] = Kept(new_chain(*key))
+        return self.chains[key]
 
     def search(self, roots: int) -> Kept[Search]:
         """Return what `search.find_roots` writes into."""

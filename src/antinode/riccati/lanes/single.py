@@ -44,8 +44,9 @@ class SingleChain:
         own.length[:], own.mass[:], own.stiffness[:] = chain.length, chain.mass, chain.stiffness
         if chain.law.has_axial_force:
             own.force[:] = chain.axial_force
-        results = library().call("make_dimensionless", own, results="dddd")
-        self.unit, L, m0, stiffness = results
+        units = np.empty(4)
+        library().call("scale", own, units)
+        self.unit, L, m0, stiffness = units.tolist()
         if chain.points:
             own.marks[[point.node for point in chain.points]] = np.arange(len(chain.points))
             rows = np.array([form.point(point, L, stiffness, m0) for point in chain.points])
