@@ -75,8 +75,8 @@ class Library:
         self._engine.finalize_object()
         self._entries: dict[str, tuple[Any, struct.Struct]] = {}
 
-    def call(self, name: str, *arguments: Any) -> tuple[Any, ...]:
-        """Call a function; return what it gives, whole numbers and floats as words.
+    def call(self, name: str, *arguments: Any) -> list[int]:
+        """Call a function; return the whole numbers that it gives.
 
         Raises
         ------
