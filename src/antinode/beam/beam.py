@@ -180,9 +180,8 @@ class Beam(ByValue):
             raise TypeError(f"a beam has no column {unknown[0]!r}; it may have {', '.join(TABLES)}")
         stations = np.atleast_1d(numbers("x", x))
         check_stations(stations)
-        step = interpolation == "step"
-        kept = (stations[1:] != stations[:-1]) | step
-        whole = step or kept.all()
+        kept = (stations[1:] != stations[:-1]) | (interpolation == "step")
+        whole = kept.all()
         columns["mass_per_length"], columns["bending_stiffness"] = (
             mass_per_length,
             bending_stiffness,
@@ -191,11 +190,9 @@ class Beam(ByValue):
         tables: dict[str, Any] = {}
         for column, values in columns.items():
             if values is not None:
-                rows, n = _column(column, values, len(stations), interpolation), len(kept)
-                table = np.empty((n, 2))
-                table[:, 0], table[:, 1] = rows[:n], rows[:n] if step else rows[1:]
-                tables[column] = table = table if whole else table[kept]
-                table.flags.writeable = False
+                rows = _column(column, values, len(stations), interpolation)
+                table = _sides(rows, len(kept), interpolation)
+                tables[column] = table if whole else owned(column, table[kept])
         if not {"mass_per_length", "bending_stiffness"} <= tables.keys():
             raise InputError("mass_per_length and bending_stiffness are needed at every station")
         return cls(
@@ -449,6 +446,15 @@ class Beam(ByValue):
 
 
 _SLOPE = np.array([0.0, 1.0])
+
+
+def _sides(rows: Array, intervals: int, interpolation: Interpolation) -> Array:
+    """Return values at both ends of every interval, shape (n, 2), from those at stations."""
+    table = np.empty((intervals, 2))
+    table[:, 0] = rows[:intervals]
+    table[:, 1] = rows[:intervals] if interpolation == "step" else rows[1:]
+    table.flags.writeable = False
+    return table
 
 
 def _column(name: str, values: npt.ArrayLike, rows: int, interpolation: Interpolation) -> Array:
