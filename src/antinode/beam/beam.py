@@ -437,15 +437,17 @@ class Beam(ByValue):
             held.append((float(self.x[point.node] - self.x[0]), tuple(all_held)))
         if law.size == 2:
             return np.zeros((0, 2)) if any(rows for _, rows in held) else np.array([[1.0, 0.0]])
-        rows = [np.zeros(2)]
-        for x, components in held:
-            rows += [np.array([1.0, x / self.length]) if c == 0 else _SLOPE for c in components]
-        _, size, basis = np.linalg.svd(np.array(rows))
-        rank = int(np.sum(size > 1e-9))
-        return np.asarray(basis[rank:] / np.array([1.0, self.length]))
+        places = {x for x, components in held if 0 in components}
+        return _lateral_freedoms(places, any(1 in components for _, components in held))
 
 
-_SLOPE = np.array([0.0, 1.0])
+def _lateral_freedoms(places: set[float], slope_held: bool) -> Array:
+    """Return the motions ``a + b x`` that are zero at some places, however near they are."""
+    if len(places) + slope_held >= 2:
+        return np.zeros((0, 2))
+    if slope_held:
+        return np.array([[1.0, 0.0]])
+    return np.array([[-x, 1.0] for x in places]) if places else np.eye(2)
 
 
 def _sides(rows: Array, intervals: int, interpolation: Interpolation) -> Array:

@@ -15,10 +15,15 @@ from pydantic import Field, model_validator
 
 from antinode.arrays import Array, Interpolation
 from antinode.errors import InputError
-from antinode.inputs.columns import Column, both_or_neither, with_closed_stations
+from antinode.inputs.columns import (
+    Column,
+    both_or_neither,
+    dropped_row,
+    with_closed_stations,
+)
 from antinode.inputs.explain import validate
 from antinode.inputs.override import override
-from antinode.inputs.reading import Tables, naming, read_tables
+from antinode.inputs.reading import COLUMN_UNITS, Tables, naming, read_tables
 from antinode.inputs.units import Frozen, Number
 from antinode.text import counted
 
@@ -221,6 +226,15 @@ class BeamFile(Frozen):
 
     table: BeamTable = Field(alias="beam", description="the beam itself")
     solve: Solve = Field(Solve(), description="what to compute, and how well")
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader of the file should know of it, and its beam does not tell."""
+        stations = self.table.stations
+        given = [(name, getattr(stations, name)) for name in COLUMNS[1:]]
+        columns = ((name, column) for name, column in given if column is not None)
+        told = dropped_row(self.table.interpolation, stations.x, columns, COLUMN_UNITS)
+        return (told,) if told else ()
 
     def beam(self) -> Beam:
         """Return the beam that the file describes."""

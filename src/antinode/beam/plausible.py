@@ -14,10 +14,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 
 from antinode.arrays import Array
 
+from .attachments import Spring
 from .beam import Beam
+from .families import LONGITUDINAL
+from .profile import Profile, interpolated
 
 FASTEST, SLOWEST = 14e3, 20.0
 """Of waves along a bar, sqrt(EA/m) [m/s]: above beryllium's, and below that of soft rubber."""
@@ -41,30 +45,66 @@ def doubts(beam: Beam) -> list[str]:
     """
     per_length = beam.mass / beam.length
     own = replace(beam, attachments=()).mass / beam.length
+    pulled = list(_weight_from_clamp(beam))
     EI = 1 / _mean_compliance(beam, beam.bending_stiffness)
     if beam.axial_stiffness is None:
-        return list(_bending_alone(beam, np.sqrt(EI / per_length), np.sqrt(EI / own)))
+        alone = _bending_alone(beam, np.sqrt(EI / per_length), np.sqrt(EI / own))
+        return [*pulled, *alone]
     EA = 1 / _mean_compliance(beam, beam.axial_stiffness)
     speeds = _wave_speed(float(np.sqrt(EA / per_length)), float(np.sqrt(EA / own)))
-    return [*speeds, *_slenderness(beam, float(np.sqrt(EI / EA)))]
+    return [*pulled, *speeds, *_slenderness(beam, float(np.sqrt(EI / EA)))]
 
 
 def _mean_compliance(beam: Beam, stiffness: Array) -> float:
-    """Return the mean of 1/stiffness over the length, by Simpson's rule on each interval."""
-    h, k = np.diff(beam.x), np.arange(len(beam.x) - 1)
-    middle = beam.at(stiffness, k, np.full(len(k), 0.5))
-    each = (1 / stiffness[:, 0] + 4 / middle + 1 / stiffness[:, 1]) / 6
-    return float(h @ each / beam.length)
+    return float(mean_compliance(Profile(beam.x, stiffness, beam.interpolation)))
+
+
+def mean_compliance(stiffness: Profile) -> Array:
+    """Return the means of 1/stiffness over the length, by Simpson's rule on each interval."""
+    a, b = stiffness.ends[..., 0], stiffness.ends[..., 1]
+    middle = interpolated(a, b, 0.5, stiffness.interpolation)
+    h = np.diff(stiffness.x)
+    return np.asarray(((1 / a + 4 / middle + 1 / b) / 6) @ h / np.sum(h))
+
+
+OF_MANY = (
+    f"a wave runs along the body faster than in any material, sqrt(EA/m) above {FASTEST:g} m/s "
+    "(steel 5,100 m/s): check the units of axial_stiffness [N] and mass_per_length [kg/m, not the "
+    f"kg of each piece]; {_MEANT}",
+    f"a wave runs along the body slower than in soft rubber, sqrt(EA/m) below {SLOWEST:g} m/s "
+    "(steel 5,100 m/s): check the units of axial_stiffness [N, not kN or MN] and mass_per_length "
+    f"[kg/m]; {_MEANT}",
+    f"the section's radius of gyration sqrt(EI/EA) is more than {STOUTEST:g} of the length, so "
+    "this is no beam: check the units of bending_stiffness [N m^2], axial_stiffness [N] and x [m]",
+)
+"""What is doubted of many bodies without attachments, in the order of `doubts_of_many`."""
+
+
+def doubts_of_many(mass: Array, EI: Profile, EA: Profile) -> npt.NDArray[np.bool_]:
+    """Tell which of many bodies have numbers that are not of this world, shape (3, bodies).
+
+    Parameters
+    ----------
+    mass : array, shape (bodies,)
+        Of each [kg].
+    EI, EA : Profile
+        Of each, or of them all.
+    """
+    length = float(EA.x[-1] - EA.x[0])
+    bending, axial = 1 / mean_compliance(EI), 1 / mean_compliance(EA)
+    speed, r = np.sqrt(axial * length / mass), np.sqrt(bending / axial)
+    told = speed > FASTEST, speed < SLOWEST, r > STOUTEST * length
+    return np.stack(np.broadcast_arrays(*told))
 
 
 def _wave_speed(loaded: float, bare: float) -> Iterator[str]:
     """Doubt sqrt(EA/m), with point masses and without."""
     if loaded > FASTEST:
         thousand = SLOWEST < loaded / 1e3 < FASTEST
-        system = "numbers in mm, N and t give such a speed, in mm/s; " if thousand else ""
+        system = ", as numbers in mm, N and t give it in mm/s" if thousand else ""
         yield (
             f"a wave runs along this beam at sqrt(EA/m) = {loaded:.3g} m/s, faster than in any "
-            f"material (steel 5,100 m/s, beryllium 12,900): {system}check the units of "
+            f"material (steel 5,100 m/s, beryllium 12,900){system}: check the units of "
             "axial_stiffness [N] and mass_per_length [kg/m, not the kg of each piece]; " + _MEANT
         )
     elif bare < SLOWEST:
@@ -80,10 +120,11 @@ def _slenderness(beam: Beam, r: float) -> Iterator[str]:
     section = f"the section's radius of gyration sqrt(EI/EA) = {r:.3g} m"
     if r > STOUTEST * beam.length:
         thousand = r / 1e3 < STOUTEST * beam.length
-        system = "bending_stiffness in N mm^2 gives such a radius; " if thousand else ""
+        system = " (bending_stiffness in N mm^2 gives such a radius)" if thousand else ""
         yield (
-            f"{section} is no small part of the length of {beam.length:.4g} m, so this is no beam: "
-            f"{system}check the units of bending_stiffness [N m^2], axial_stiffness [N] and x [m]"
+            f"{section} is no small part of the length of {beam.length:.4g} m, so this is no "
+            f"beam{system}: check the units of bending_stiffness [N m^2], axial_stiffness [N] and "
+            "x [m]"
         )
     elif r < SLENDEREST * beam.length and _is_bare(beam):
         yield (
@@ -105,6 +146,24 @@ def _bending_alone(beam: Beam, loaded: float, bare: float) -> Iterator[str]:
         yield (
             f"sqrt(EI/m) = {bare:.3g} m^2/s is less than a beam of {beam.length:.4g} m can have in "
             f"any material (a steel wire one mm thick: 1.3 m^2/s): {check}; " + _MEANT
+        )
+
+
+def _weight_from_clamp(beam: Beam) -> Iterator[str]:
+    """Doubt a weight that pulls a cantilever away from its clamp: a mast stands, gravity points."""
+    left, right = beam.ends.of(LONGITUDINAL)
+    sprung = any(isinstance(item, Spring) and item.axial for item in beam.attachments)
+    if sprung or (left, right) == ("fixed", "fixed"):
+        return
+    a, x = beam.axial_acceleration, beam.x
+    if (left == "fixed" and beam.ends.left == "clamped" and a > 0) or (
+        right == "fixed" and beam.ends.right == "clamped" and a < 0
+    ):
+        sign, place = ("+", x[0]) if a > 0 else ("-", x[-1])
+        yield (
+            f"the weight of {abs(a):.5g} m/s^2 along {sign}x pulls away from the clamped end at x "
+            f"= {place:g} m: the beam hangs from it, and the tension stiffens it; a mast that "
+            f"stands on this end has gravity = {-a:.5g}; if it hangs, ignore this"
         )
 
 

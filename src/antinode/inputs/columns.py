@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -107,3 +108,35 @@ def with_closed_stations(table: Any) -> Any:
         return table
     closed = {key: c if key == "x" else [*c, c[-1]] for key, c in stations.items()}
     return {**table, "stations": closed}
+
+
+def dropped_row(
+    interpolation: str, x: Array, columns: Iterable[tuple[str, Array]], units: Mapping[str, str]
+) -> str:
+    """Say that a stepped table does not use its last row although it differs from the one before.
+
+    Parameters
+    ----------
+    interpolation : str
+    x : array
+        Stations [m].
+    columns : iterable
+        Names and values of what stands at them.
+    units : mapping
+        Of the columns.
+
+    Returns
+    -------
+    str
+        Empty where nothing is lost.
+    """
+    differing = ((name, c[-2], c[-1]) for name, c in columns if c[-1] != c[-2])
+    name, before, last = next(differing, ("", 0.0, 0.0))
+    if interpolation != "step" or not name:
+        return ""
+    return (
+        f"the last row of the table, at x = {x[-1]:g} m, is not used: with interpolation = 'step', "
+        f"the default, a row holds up to the next one, so {name} stays {before:g} up to the end, "
+        f"not {last:g} {units[name]}; set interpolation = 'linear' if values run straight between "
+        "the rows, else repeat the row before"
+    )

@@ -10,7 +10,8 @@ before) / 15`` is reported.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from antinode.riccati.reasons import CERTIFIED
 from .backends import Backend, BackendName, choose
 from .brackets import share_brackets
 from .hertz import error_hz, hertz
+from .result import ModalResult
 from .rigid import rigid_modes, rigid_modes_of
 from .solve import HasBeam, solve_modes
 
@@ -53,6 +55,8 @@ class Frequencies(ByValue):
         Number of eigenvalues of the chain, rigid ones included, below either end of the bracket.
     segments : int
         Of the finest chain.
+    beam : Beam
+        That was solved.
     """
 
     omega2: Array
@@ -60,6 +64,26 @@ class Frequencies(ByValue):
     bracket_omega2: Array
     counts: Integers
     segments: int
+    beam: Beam = field(repr=False)
+
+    @cached_property
+    def _with_shapes(self) -> ModalResult:
+        return solve_modes(self.beam, len(self.omega2), families=(BENDING,))
+
+    @property
+    def model_error(self) -> Array:
+        """First-order effect of shear and rotary inertia on each frequency, relative, (modes,).
+
+        It needs the shapes, which are computed when it is first asked for; NaN where the beam does
+        not tell, and past buckling.
+        """
+        modes = [mode for mode in self._with_shapes.modes if mode.number][: len(self.omega2)]
+        return np.array([mode.model_error for mode in modes], dtype=float)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What `solve_modes` warns of; computed when it is first asked for, as `model_error`."""
+        return self._with_shapes.warnings
 
     @property
     def frequencies_hz(self) -> Array:
@@ -124,6 +148,7 @@ def _by_modes(beam: Beam, modes: int, tolerance: float, backend: BackendName) ->
         np.array([mode.bracket_omega2 for mode in found]),
         np.array([mode.counts for mode in found]),
         result.segments[BENDING],
+        beam,
     )
 
 
@@ -156,7 +181,7 @@ def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Freq
     if found.omega2[0] < 0 and "translation" in rigid_modes(beam, BENDING):
         return None  # its omega^2 = 0 lies above an elastic mode: indices do not tell them apart
     _reach(found.bracket, found.omega2, found.counts)
-    return Frequencies(found.omega2, found.error, found.bracket, found.counts, found.segments)
+    return Frequencies(found.omega2, found.error, found.bracket, found.counts, found.segments, beam)
 
 
 def _reach(bracket: Array, omega2: Array, counts: Integers) -> None:

@@ -92,7 +92,14 @@ def solve_modes(
     solver = solver_of(method, choose(backend))
     beam = problem if isinstance(problem, Beam) else problem.beam()
     chosen = beam.families if families is None else _chosen(families)
-    return _solve_families(beam, chosen, modes, tolerance, solver, method, normalisation, unloaded)
+    found = _solve_families(beam, chosen, modes, tolerance, solver, method, normalisation, unloaded)
+    return _with_notes(found, problem)
+
+
+def _with_notes(result: ModalResult, problem: Beam | HasBeam) -> ModalResult:
+    """Return the result with what the file of its problem should have been told about."""
+    notes = getattr(problem, "notes", ())
+    return replace(result, warnings=(*notes, *result.warnings)) if notes else result
 
 
 def _solve_families(
@@ -146,7 +153,8 @@ def solve_one(problem: Beam | HasBeam, modes: int = 6, **settings: Any) -> Modal
     """
     beam = problem if isinstance(problem, Beam) else problem.beam()
     segments = max(int(np.sum(np.where(beam.varies(f), 14, 1))) for f in beam.families)
-    return solve_modes(beam, modes, backend=for_one(segments, modes), **settings)
+    found = solve_modes(beam, modes, backend=for_one(segments, modes), **settings)
+    return _with_notes(found, problem)
 
 
 def _chosen(families: Sequence[FamilyName]) -> tuple[FamilyName, ...]:

@@ -38,6 +38,12 @@ SHEAR_LOWERS = (
 )
 
 
+LOWEST_DIVERGES = (
+    "the lowest mode, counted as rigid rotation, is divergent (omega^2 < 0): the body is in net "
+    "tension, but compressed in parts past their buckling; reduce the compression there"
+)
+
+
 def _rotation_warning(beam: Beam) -> str:
     """Say why the rotation of a body that may turn diverges."""
     k = np.arange(len(beam.x) - 1)
@@ -45,10 +51,7 @@ def _rotation_warning(beam: Beam) -> str:
     net = float(np.diff(beam.x) @ (ends[0] + 4 * ends[1] + ends[2])) / 6
     if net > 0 or beam.attachments:
         return ROTATION_DIVERGES
-    return (
-        "the lowest mode, counted as rigid rotation, is divergent (omega^2 < 0): the body is in "
-        "net tension, but compressed in parts past their buckling; reduce the compression there"
-    )
+    return LOWEST_DIVERGES
 
 
 def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:

@@ -335,13 +335,15 @@ def characteristic(chain: Chain, F: Array, units: Array) -> Array:
 
 def negative_at_nodes(law: Law, steps: Steps, frames: Sweep) -> Integers:
     """Count the negative eigenvalues met while the nodes are condensed, shape (lanes,)."""
-    kind = np.array(steps.kind)
-    block, joint = np.flatnonzero(kind == "block"), np.flatnonzero(kind == "joint")
+    kind, sign = np.array(steps.kind), displacement_sign(frames.F, law.behind)
+    for load in np.flatnonzero(kind == "load"):  # leaves A as it is, but for rounding
+        sign[load + 1] = sign[load]
+    changes = sign[:-1] * sign[1:] < 0
+    block = np.flatnonzero(kind == "block")
     in_blocks = law.negative_in_blocks(
-        steps.U[block], frames.F[block], frames.F[block + 1], frames.R[block + 1]
+        steps.U[block], frames.F[block], frames.F[block + 1], frames.R[block + 1], changes[block]
     )
-    before, after = (displacement_sign(frames.F[joint + k], law.behind) for k in (0, 1))
-    return np.asarray(in_blocks + np.sum(before * after < 0, axis=0), dtype=np.int64)
+    return np.asarray(in_blocks + np.sum(changes[kind == "joint"], axis=0), dtype=np.int64)
 
 
 class Evaluation(NamedTuple):

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from .arrays import Array, Integers
-from .frames import displacement_sign
 from .points import Point
 
 if TYPE_CHECKING:
@@ -140,7 +140,9 @@ class Law(ABC):
         rows = np.eye(self.size)[self.zeros(end)]
         return np.broadcast_to(rows, (len(units), *rows.shape))
 
-    def negative_in_blocks(self, U: Array, here: Array, after: Array, R: Array) -> Integers:
+    def negative_in_blocks(
+        self, U: Array, here: Array, after: Array, R: Array, changes: npt.NDArray[np.bool_]
+    ) -> Integers:
         """Count the negative eigenvalues met where the left nodes of blocks are condensed, (k,).
 
         Parameters
@@ -150,8 +152,9 @@ class Law(ABC):
             Frames at the two nodes of each block.
         R : array, shape (blocks, k, d, d)
             Change of basis behind it.
+        changes : array of bool, shape (blocks, k)
+            Whether det A changes its sign between them.
         """
-        changes = displacement_sign(here, self.behind) * displacement_sign(after, self.behind) < 0
         more = self._two_more(U, here, after, R)
         return np.asarray(np.sum(np.where(changes, 1, np.where(more, 2, 0)), axis=0))
 

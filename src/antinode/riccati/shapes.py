@@ -259,7 +259,9 @@ class Energies(NamedTuple):
     stiffness: Array
     """Integral of EI Y''^2 - N Y'^2 (or EA X'^2) and the points' share: omega^2 times the mass."""
     size: Array
-    """The same with every term taken positive: how much cancels in the stiffness."""
+    """The same with every term taken positive, and the force of each spring over the largest
+    displacement, of which rounding takes a share even where the spring hardly moves: how much
+    cancels in the stiffness."""
 
     def scaled(self, scale: Array) -> Energies:
         """Return those of the modes with a factor on each shape, shape (modes,)."""
@@ -282,10 +284,12 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> Energies:
 def energies(chain: Chain, states: Array, squares: Squares) -> Energies:
     """Return modal mass and stiffness from the integrals over the segments, and the points."""
     mass, strain, work, size = chain.law.forms(chain.columns, squares)
+    reach = np.max(np.abs(states[:, :, 0]), axis=0)
     for point in chain.points:
         last = point.node == len(states) - 1
         inertia, elastic = chain.law.point_energies(point, states[point.node], last)
         mass, strain, size = mass + inertia, strain + elastic, size + np.abs(elastic)
+        size = size + point.spring * np.abs(states[point.node][:, 0]) * reach
     return Energies(squares, mass, strain - work, size)
 
 

@@ -17,6 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arrays import Array
+from antinode.inputs.columns import dropped_row
+from antinode.inputs.reading import COLUMN_UNITS
 
 from .load_warnings import LoadWarning
 from .numbers import ManyCases
@@ -39,8 +41,27 @@ def doubtful_vehicles(
         Of the bodies [kg].
     counted : array of bool (cases,)
     """
-    every = (_density(cases, mass), _section(cases), *_fins(cases), _speed(cases))
+    every = (
+        *_last_row(cases),
+        _density(cases, mass),
+        _section(cases),
+        *_fins(cases),
+        _speed(cases),
+    )
     return tuple(replace(warning, concerns=warning.concerns & counted) for warning in every)
+
+
+def _last_row(cases: ManyCases) -> Iterator[LoadWarning]:
+    """Tell of a stepped table that does not use its last row although it differs."""
+    table, columns = cases.vehicle.stations, []
+    for name in COLUMN_UNITS:
+        column = getattr(table, name, None)
+        states = column.values() if isinstance(column, dict) else (column,)
+        columns += [(name, state) for state in states if name != "x" and state is not None]
+    told = dropped_row(cases.vehicle.interpolation, table.x, columns, COLUMN_UNITS)
+    if told:
+        none, text = np.zeros(cases.cases), f"{told[0].upper()}{told[1:]}."
+        yield LoadWarning(text, "rows", none, 0.0, 0.0, none == 0, lambda _: text)
 
 
 def _density(cases: ManyCases, mass: Array) -> LoadWarning:

@@ -8,6 +8,7 @@ import pytest
 
 from antinode import Beam, Ends, solve_modes
 from antinode.beam.attachments import PointMass, Spring
+from antinode.beam.axial import AxialLoads, apply_loads
 from antinode.beam.plausible import doubts
 from cli_run import run
 
@@ -108,3 +109,70 @@ def test_doubts_come_with_the_modes():
     told = solve_modes(bar(EI=1e6), 1).warnings
     assert any("in N mm^2 gives" in text for text in told)
     assert not any("check the units" in text for text in solve_modes(bar(), 1).warnings)
+
+
+HANGS = "pulls away from the clamped end"
+
+
+@pytest.mark.parametrize(
+    ("ends", "gravity", "hangs"),
+    [
+        (CLAMPED, 9.81, True),
+        (CLAMPED, -9.81, False),
+        (Ends("free", "clamped"), -9.81, True),
+        (Ends("free", "clamped"), 9.81, False),
+        (Ends("pinned", "free"), 9.81, False),
+        (Ends("clamped", "clamped"), 9.81, False),
+        (Ends("clamped", "free", left_axial="free"), 9.81, False),
+    ],
+)
+def test_weight_that_pulls_away_from_the_clamp(ends, gravity, hangs):
+    beam = apply_loads(bar(ends=ends), AxialLoads(gravity=gravity))
+    assert any(HANGS in text for text in doubts(beam)) == hangs
+
+
+def test_a_mast_that_shakes_upward_hangs_from_nothing():
+    beam = apply_loads(bar(), AxialLoads(gravity=-9.81, acceleration=3.0))
+    assert not any(HANGS in text for text in doubts(beam))
+
+
+LAST_ROW = """
+[beam]
+stations.x = [0, 4, 8]
+stations.mass_per_length = [60, 50, {m}]
+stations.bending_stiffness = [9e6, 6e6, {EI}]
+interpolation = "{how}"
+ends.left = "clamped"
+"""
+
+
+@pytest.mark.parametrize(
+    ("m", "EI", "how", "told"),
+    [
+        (40, 6e6, "step", "mass_per_length stays 50 up to the end, not 40 kg/m"),
+        (50, 3e6, "step", "bending_stiffness stays 6e+06"),
+        (50, 6e6, "step", ""),
+        (40, 3e6, "linear", ""),
+        (40, 3e6, "log", ""),
+    ],
+)
+def test_a_last_row_that_is_not_used(tmp_path, m, EI, how, told):
+    path = tmp_path / "beam.toml"
+    path.write_text(LAST_ROW.format(m=m, EI=EI, how=how))
+    for arguments in (
+        ["beam", path, "--json"],
+        ["report", path, "-o", tmp_path / "r.html", "--json"],
+    ):
+        found = [t for t in json.loads(run(*arguments).out)["warnings"] if "is not used" in t]
+        assert len(found) == bool(told)
+        assert told in "".join(found)
+
+
+def test_a_last_row_of_a_table_in_csv(tmp_path):
+    path = tmp_path / "mast.csv"
+    rows = "x [m], mass_per_length [kg/m], bending_stiffness [N m^2]\n0, 5, 7\n1, 5, 7\n2, 5, "
+    path.write_text(rows + "3\n")
+    ended = run("beam", path, "--modes", "1")
+    assert "bending_stiffness stays 7 up to the end, not 3 N m^2" in " ".join(ended.out.split())
+    path.write_text(rows + "7\n")
+    assert "is not used" not in run("beam", path, "--modes", "1").out

@@ -137,3 +137,22 @@ def test_no_call_imports_the_compiler():
 def test_an_unknown_backend_is_refused():
     with pytest.raises(an.InputError, match="backend is 'fortran'; allowed are 'auto'"):
         an.natural_frequencies(steep(1), backend="fortran")
+
+
+@pytest.mark.parametrize("N", [0.0, 3e6, -2e6])
+def test_the_effect_of_shear_stands_beside_the_frequencies(N):
+    """A short pipe, in compression past buckling, in tension: as of the modes."""
+    beam = an.Beam.from_stations(
+        [0, 0.3, 0.9], 12.0, [4e4, 9e4, 9e4], 3e8, N, ends=an.Ends("pinned")
+    )
+    fast, full = an.natural_frequencies(beam, 4), an.solve_modes(beam, 4, families=["bending"])
+    wanted = [mode.model_error for mode in full.modes if mode.number][:4]
+    np.testing.assert_array_equal(fast.model_error, np.array(wanted, dtype=float))
+    assert abs(fast.model_error[-1]) > 0.02
+    assert fast.warnings == full.warnings
+    assert any("shear and rotary inertia" in text for text in fast.warnings)
+
+
+def test_without_axial_stiffness_shear_is_unknown_not_zero():
+    beam = an.Beam.from_stations([0, 1], 1.0, 1.0)
+    assert np.isnan(an.natural_frequencies(beam, 2).model_error).all()

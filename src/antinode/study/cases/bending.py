@@ -9,10 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from antinode.arrays import Array, Integers
 from antinode.beam.ends import FREE
 from antinode.beam.families import BENDING, FAMILIES
+from antinode.modes.backends import choose
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.modes.rigid import elastic, rigid_modes_of, zeros_of
 from antinode.riccati.chain import Chain
@@ -48,6 +50,8 @@ class Eigenvalues:
         At even points, of unit norm; without points where they are not wanted.
     net_force : array, shape (cases,)
         Integral of N along the axis [N m]; 0 in families that it does not act on.
+    lowest_diverges : array of bool, shape (cases,)
+        Whether the mode that is counted as rigid rotation diverges in net tension.
     """
 
     omega2: Array
@@ -55,6 +59,7 @@ class Eigenvalues:
     reason: Integers
     shapes: Array
     net_force: Array
+    lowest_diverges: npt.NDArray[np.bool_]
 
 
 def nothing_solved(study: Study, reason: Integers, points: int) -> Eigenvalues:
@@ -62,7 +67,8 @@ def nothing_solved(study: Study, reason: Integers, points: int) -> Eigenvalues:
     shape = len(reason), study.solve.modes
     omega2, error = np.full((2, *shape), np.nan)
     shapes = np.full((*shape, points), np.nan)
-    return Eigenvalues(omega2, error, reason.copy(), shapes, np.zeros(len(reason)))
+    none = np.zeros(len(reason))
+    return Eigenvalues(omega2, error, reason.copy(), shapes, none, none.astype(bool))
 
 
 def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
@@ -81,6 +87,7 @@ def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
         omega2, error, out.reason[at] = solve_free(chains, study.solve.modes)
         out.omega2[at] = omega2
         out.net_force[at] = np.sum(chains.length * chains.axial_force, axis=1)
+        out.lowest_diverges[at] = lowest_diverges(chains, omega2, out.net_force[at])
         out.error[at] = error + np.abs(omega2) * share * weight[at, None]
         if points:
             out.shapes[at] = _shapes(chains, omega2, out.reason[at], x)
@@ -154,6 +161,19 @@ def solve_free(chains: Chains, modes: int) -> tuple[Array, Array, Integers]:
             omega2[i], error[i] = found
             reason[i] = PAST_BUCKLING if omega2[i, 0] < 0 else 0
     return omega2, error, reason
+
+
+def lowest_diverges(chains: Chains, omega2: Array, net_force: Array) -> npt.NDArray[np.bool_]:
+    """Tell where a body in net tension has a part that is compressed past its buckling.
+
+    The lowest eigenvalue, below the translation, is then no elastic mode's by its index.
+    """
+    told = np.zeros(len(omega2), dtype=bool)
+    compressed = np.any(chains.axial_force > 0, axis=1)
+    for i in np.flatnonzero((net_force < 0) & compressed & np.isfinite(omega2[:, -1])).tolist():
+        below_zero = -_NEAR_BUCKLING * abs(float(omega2[i, -1]))
+        told[i] = choose("numba").evaluate(chain_of(chains, i), [below_zero]).below[0] > 0
+    return told
 
 
 def chain_of(chains: Chains, i: int) -> Chain:

@@ -43,7 +43,8 @@ def compute_chunk(points: Points, chunk: int) -> Arrays:
     found, shear = _every_family(cases, beams, size)
     out: Arrays = {v.name: cases.values[:, k] for k, v in enumerate(points.variables)}
     out["reason"] = found.reason.astype(np.int16)
-    bits = warned(found.reason, found.omega2, found.net_force, shear, beams.doubts)
+    doubts = np.concatenate([cases.doubts(beams.scalars["mass"]), beams.doubts])
+    bits = warned(found, shear, doubts)
     out["warned"] = bits.astype(type_of_bits(study))
     loaded = found.reason < OUT_OF_RANGE
     scalars = {name: np.where(loaded, values, np.nan) for name, values in beams.scalars.items()}
@@ -75,7 +76,8 @@ def _every_family(cases: Cases, beams: CaseBeams, points: int) -> tuple[Eigenval
     bad = failed(reason)
     omega2[bad], error[bad] = np.nan, np.nan
     force = np.sum([f.net_force for f in families], axis=0)
-    found = Eigenvalues(omega2, error, reason, shapes, force)
+    lowest = np.any([f.lowest_diverges for f in families], axis=0)
+    found = Eigenvalues(omega2, error, reason, shapes, force, lowest)
     return found, np.where(bad[:, None], np.nan, np.concatenate(shear, axis=1))
 
 

@@ -10,6 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arrays import Array
+from antinode.beam.plausible import doubts_of_many
+from antinode.beam.profile import Profile
 from antinode.study.design.file import Study
 from antinode.study.design.variables import Variable
 from antinode.vehicle.case import Case
@@ -88,6 +90,18 @@ class Cases:
         """Return what stands for the body of a case, whatever its loads: equal for equal ones."""
         numbers = (values[i] for keys, values in self.numbers.items() if _is_of_body(keys))
         return b"".join(np.ascontiguousarray(v).tobytes() for v in numbers)
+
+    def doubts(self, mass: Array) -> npt.NDArray[np.bool_]:
+        """Tell which bodies, of some mass [kg], are not of this world; `beam.plausible` has why."""
+        vehicle = self.study.case.vehicle
+
+        def profile(name: str) -> Profile:
+            """Return a stiffness of all bodies."""
+            rows = self.numbers.get((*_STATIONS, name), getattr(vehicle.stations, name))
+            return Profile.of_rows(vehicle.stations.x, rows, vehicle.interpolation)
+
+        with np.errstate(all="ignore"):
+            return doubts_of_many(mass, profile("bending_stiffness"), profile("axial_stiffness"))
 
     def outside(self) -> npt.NDArray[np.bool_]:
         """Tell in which cases an input is outside the range that the case allows."""

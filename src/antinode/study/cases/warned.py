@@ -9,7 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arrays import Array, Integers
+from antinode.beam.plausible import OF_MANY
 from antinode.modes.warnings import (
+    LOWEST_DIVERGES,
     MODEL_LIMIT,
     PAST_BUCKLING,
     ROTATION_DIVERGES,
@@ -20,11 +22,13 @@ from antinode.modes.warnings import (
 from antinode.study.design.file import Study
 
 from .beams import load_messages
+from .bending import Eigenvalues
 from .reasons import failed
 
 _OF_MODES = (
     f"elastic modes with omega^2 < 0: {PAST_BUCKLING}",
     ROTATION_DIVERGES,
+    LOWEST_DIVERGES,
     f"some modes: {SHEAR_LOWERS}",
     f"some modes: {SHEAR_BUCKLES}",
 )
@@ -36,7 +40,7 @@ _LAST = 62
 
 def messages(study: Study) -> tuple[str, ...]:
     """Return what a case of a study can warn of, in the order of the bits."""
-    texts = (*_OF_MODES, *load_messages(study.case))
+    texts = (*_OF_MODES, *OF_MANY, *load_messages(study.case))
     return (*texts[:_LAST], "; or ".join(texts[_LAST:])) if len(texts) > _LAST else texts
 
 
@@ -45,36 +49,29 @@ def type_of_bits(study: Study) -> str:
     return "int32" if len(messages(study)) < 32 else "int64"
 
 
-def warned(
-    reason: Integers,
-    omega2: Array,
-    net_force: Array,
-    model_error: Array,
-    doubts: npt.NDArray[np.bool_],
-) -> Integers:
+def warned(found: Eigenvalues, model_error: Array, doubts: npt.NDArray[np.bool_]) -> Integers:
     """Return the bits of every case.
 
     Parameters
     ----------
-    reason : array of int, shape (cases,)
+    found : Eigenvalues
         Cases that failed warn of nothing.
-    omega2, model_error : array, shape (cases, modes)
-    net_force : array, shape (cases,)
-        Integral of N along the axis [N m].
+    model_error : array, shape (cases, modes)
     doubts : array of bool, shape (warnings, cases)
-        About the loads.
+        About the bodies and the loads.
     """
     with np.errstate(invalid="ignore"):
         told = (
-            np.any(omega2 < 0, axis=1),
-            net_force > 0,
+            np.any(found.omega2 < 0, axis=1),
+            found.net_force > 0,
+            found.lowest_diverges & ~(found.net_force > 0),
             np.any(np.abs(model_error) > MODEL_LIMIT, axis=1),
             np.any(shear_buckles(model_error), axis=1),
         )
-    bits = np.zeros(len(reason), dtype=np.int64)
+    bits = np.zeros(len(found.reason), dtype=np.int64)
     for k, each in enumerate((*told, *doubts)):
         bits |= each * np.int64(1 << min(k, _LAST))
-    return np.where(failed(reason), 0, bits)
+    return np.where(failed(found.reason), 0, bits)
 
 
 def counted_warnings(

@@ -22,7 +22,7 @@ from antinode.version import __version__
 if TYPE_CHECKING:
     import xarray
 
-FORMAT = 2
+FORMAT = 3
 TIMESTAMPS = ("created", "finished")
 """Attributes that differ from run to run."""
 TRACKED = ("tracked_mode", "tracked_mac", "tracked_doubtful", "tracked_frequency_hz")

@@ -6,11 +6,18 @@ import numpy as np
 import pytest
 
 import antinode as an
-from antinode.modes.warnings import PAST_BUCKLING, ROTATION_DIVERGES, SHEAR_LOWERS
+from antinode.modes.warnings import (
+    LOWEST_DIVERGES,
+    PAST_BUCKLING,
+    ROTATION_DIVERGES,
+    SHEAR_LOWERS,
+)
+from antinode.study.cases.bending import lowest_diverges, solve_free
 from antinode.study.cases.values import Cases
 from antinode.study.cases.warned import counted_warnings, messages
 from antinode.study.design.points import points_of
 from antinode.study.sweep.sweep import sweep
+from antinode.vehicle.many_beams import Chains
 from cli_run import run
 from study_text import study
 
@@ -38,6 +45,15 @@ solve.modes = 2
 """
 
 
+ODD_BODIES = """
+inputs = [
+  { key = "axial_stiffness", values = [1e-9, 1e-3, 1, 1e5] },
+  { key = "bending_stiffness", values = [1, 100] },
+]
+solve.modes = 2
+"""
+
+
 @pytest.fixture(scope="module")
 def case(tmp_path_factory):
     folder = tmp_path_factory.mktemp("warned")
@@ -59,7 +75,7 @@ def alike(message, sentence):
     return all(any(w == other for other in words) for w in skeleton)
 
 
-@pytest.mark.parametrize("text", [SMALL_CAVITY, HEAVY, ONE_BY_ONE])
+@pytest.mark.parametrize("text", [SMALL_CAVITY, HEAVY, ONE_BY_ONE, ODD_BODIES])
 def test_every_case_warns_as_it_does_alone(case, text):
     made = study(case, text)
     found, points = sweep(made), points_of(made)
@@ -99,6 +115,23 @@ def test_the_kinds_are_told(case):
     assert any("closes ahead of the tail" in text for text in texts)
     assert any("Fin set 1" in text for text in texts)
     assert any("forebody" in text for text in texts)
+
+
+def test_a_compressed_part_buckles_in_net_tension():
+    """The lowest eigenvalue is then counted as rigid rotation: as `solve_modes` warns."""
+    EI = np.array([1e6, 1e6, 1e6, 1e6, 2e2, 2e2])
+    N = np.array([[-4e3, -4e3, -4e3, -4e3, 1e3, 1e3], [-4e3] * 5 + [1e3], [4e3] * 6])
+    ones = np.ones((1, 6))
+    chains = Chains(np.arange(3), ones, ones, EI[None], N)
+    omega2 = solve_free(chains, 3)[0]
+    found = lowest_diverges(chains, omega2, N.sum(axis=1))
+    closed = [np.append(row, row[-1]) for row in (EI, *N)]
+    alone = [
+        an.solve_modes(an.Beam.from_stations(np.arange(7.0), 1.0, closed[0], None, force), 3)
+        for force in closed[1:]
+    ]
+    assert found.tolist() == [LOWEST_DIVERGES in result.warnings for result in alone]
+    assert found.tolist()[::2] == [True, False]
 
 
 def test_cases_that_failed_warn_of_nothing(case):
