@@ -9,14 +9,19 @@ import openpyxl
 import pytest
 
 from antinode import InputError, load_beam, solve_modes
+from antinode.beam.attachments import PointMass, Spring
+from antinode.beam.axial import AxialLoads, PointForce, apply_loads
 from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
+from antinode.beam.file import BeamFile
 from antinode.exchange.beam_toml import beam_file_text
 from antinode.exchange.convert import Request, convert
 from antinode.exchange.inputs import Choices, read_beam
 from antinode.exchange.outputs import write_beam
 from antinode.exchange.tabulated import Stations, tabulate
+from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_csv
+from antinode.modes.buckling import buckling
 from cli_run import refused, run
 from exchange.conversions import EXAMPLES, difference, everything, example, solved
 
@@ -80,13 +85,100 @@ def test_a_jump_among_straight_columns_is_two_rows():
     assert stations.notes == ()
 
 
-def test_a_force_that_no_file_can_hold_is_refused():
+def shared_weight(how, ends=("clamped", "clamped"), offset_weight=True):
+    """A force of its own, weight, an offset mass, and several supports that share the load."""
+    beam = Beam.from_stations(
+        [0, 1, 2, 3], [9.0, 7, 8, 8], [4e3, 5e3, 4e3, 4e3], [9e6, 7e6, 8e6, 8e6],
+        [900.0, 300, 500, 500], interpolation=how, ends=Ends(*ends),
+    )  # fmt: skip
+    beam = beam.with_attachments(PointMass(1.4, 30.0, 0.2, 0.3), Spring(2.2, axial=4e5))
+    return apply_loads(beam, AxialLoads(9.81, 0.0, (PointForce(0.5, 700.0),), offset_weight))
+
+
+@pytest.mark.parametrize("ending", ["toml", "xlsx"])
+@pytest.mark.parametrize("offset_weight", [True, False])
+@pytest.mark.parametrize(
+    ("how", "ends"),
+    [("step", ("clamped", "clamped")), ("linear", ("pinned", "free")), ("log", ("free", "pinned"))],
+)
+def test_a_force_beside_weight_that_supports_share(how, ends, offset_weight, ending, tmp_path):
+    beam = shared_weight(how, ends, offset_weight)
+    path = tmp_path / f"b.{ending}"
+    write_beam(path, beam, ending)
+    again = read_beam(path, ending, Choices()).beam
+    wanted, got = (buckling(one, backend="numpy") for one in (beam, again))
+    assert got.load_factor == pytest.approx(wanted.load_factor, rel=1e-9)
+    assert (again.axial_acceleration, again.offset_weight) == (9.81, offset_weight)
+    if offset_weight:
+        light = buckling(replace(beam, offset_weight=False), backend="numpy")
+        assert abs(light.load_factor / wanted.load_factor - 1) > 1e-4
+
+
+def test_what_acts_on_no_support_is_a_column():
     beam = Beam.from_stations(
         [0, 1, 2], [1, 1, 1], [4, 4, 4], [9, 9, 9], ends=Ends("clamped", "clamped")
     )
     beam = replace(beam, interpolation="linear", axial_acceleration=3.0)
-    with pytest.raises(InputError, match="several supports"):
-        beam_file_text(beam)
+    text, _ = beam_file_text(beam)
+    again = validate(BeamFile, tomllib.loads(text), "it").beam()
+    np.testing.assert_allclose(again.axial_force, beam.axial_force, atol=1e-12)
+    assert again.axial_acceleration == 3.0
+
+
+def test_without_axial_stiffness_shared_weight_is_refused():
+    beam = Beam.from_stations([0, 1, 2], [1, 1, 1], [4, 4, 4], ends=Ends("clamped", "clamped"))
+    with pytest.raises(InputError, match="axial_stiffness is missing"):
+        beam_file_text(replace(beam, axial_acceleration=3.0))
+
+
+@pytest.mark.parametrize(
+    ("sheet", "words"),
+    [
+        ("Beam", "did you mean beam?"),  # which openpyxl calls Beam1 beside beam
+        ("Masses", "did you mean point_masses?"),
+        ("stations (2)", "did you mean stations?"),
+        ("Spring", "did you mean springs?"),
+        ("notes of mine", "# before the name of a sheet"),
+    ],
+)
+def test_a_sheet_that_nobody_would_read_is_refused(sheet, words, tmp_path):
+    write_beam(tmp_path / "b.xlsx", everything(), "xlsx")
+    book = openpyxl.load_workbook(tmp_path / "b.xlsx")
+    added = book.create_sheet(sheet)
+    added.append(["x [m]", "mass [kg]"])
+    book.save(tmp_path / "b.xlsx")
+    refused(run("beam", tmp_path / "b.xlsx"), "unknown sheet", words)
+    added.title = "# left out"
+    book.create_sheet("Sheet2")
+    book.save(tmp_path / "b.xlsx")
+    assert run("beam", tmp_path / "b.xlsx", "--modes", "1").code == 0
+
+
+def test_capitals_and_spaces_in_the_names_of_sheets_do_not_count(tmp_path):
+    write_beam(tmp_path / "b.xlsx", everything(), "xlsx")
+    book = openpyxl.load_workbook(tmp_path / "b.xlsx")
+    for name, other in (("beam", "#"), ("point_masses", "Point Masses"), ("#", "Beam")):
+        book[name].title = other
+    book.save(tmp_path / "b.xlsx")
+    again = read_beam(tmp_path / "b.xlsx", "xlsx", Choices()).beam
+    assert (again.mass, again.ends) == (everything().mass, everything().ends)
+    book.create_sheet("point_masses").append(["x [m]", "mass [kg]"])
+    book.save(tmp_path / "b.xlsx")
+    refused(run("beam", tmp_path / "b.xlsx"), "'point_masses'", "'Point Masses' already")
+
+
+def test_results_in_a_workbook_are_not_read_again(tmp_path):
+    run("init", "--beam", tmp_path)
+    assert run("beam", tmp_path / "beam.toml", "-o", tmp_path / "b.xlsx").code == 0
+    assert run("beam", tmp_path / "b.xlsx", "--modes", "1").code == 0
+
+
+def test_the_sheet_of_keys_needs_its_heading(tmp_path):
+    path = flange_file(tmp_path, ".xlsx")
+    book = openpyxl.load_workbook(path)
+    book["beam"].delete_rows(1)
+    book.save(path)
+    refused(run("beam", path), "sheet beam", "'interpolation'", "key, value")
 
 
 FLANGE = {

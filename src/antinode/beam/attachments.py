@@ -92,16 +92,18 @@ class Joint:
 Attachment = PointMass | Spring | Joint
 
 
-def check_no_side(items: Iterable[Attachment]) -> None:
-    """Refuse what moves with the left side of a joint at its station."""
+def beside_joints(items: Iterable[Attachment]) -> list[float]:
+    """Return the stations of joints whose left side moves something that stands there [m]."""
     items = tuple(items)
-    for joint in (item for item in items if isinstance(item, Joint)):
-        for item in items:
-            if item.x == joint.x and _moves_with_a_side(joint, item):
-                raise InputError(
-                    f"at x = {joint.x:g} m a mass or spring stands on the left of a joint; "
-                    "reversed it would stand on its right: move it by a small distance"
-                )
+    joints = [item for item in items if isinstance(item, Joint)]
+    return sorted(
+        {
+            joint.x
+            for joint in joints
+            for item in items
+            if item.x == joint.x and _moves_with_a_side(joint, item)
+        }
+    )
 
 
 def _moves_with_a_side(joint: Joint, item: Attachment) -> bool:

@@ -29,8 +29,8 @@ from .attachments import (
     Attachment,
     Joint,
     PointMass,
+    beside_joints,
     check_attachments,
-    check_no_side,
     gather,
     on_beam,
 )
@@ -249,8 +249,10 @@ class Beam(ByValue):
     def with_breakpoints(self, positions: Sequence[float]) -> Beam:
         """Return the same beam with breakpoints at the given positions [m] as well."""
         inside = [p for p in positions if np.min(np.abs(self.x - p)) > 1e-12 * self.length]
-        if not inside:
-            return self
+        return self._cut_at(inside) if inside else self
+
+    def _cut_at(self, inside: Sequence[float]) -> Beam:
+        """Return the same beam with breakpoints at places inside intervals [m] as well."""
         x = np.union1d(self.x, inside)
         k = np.clip(np.searchsorted(self.x, (x[1:] + x[:-1]) / 2) - 1, 0, len(self.x) - 2)
         size = np.diff(self.x)[k]
@@ -328,15 +330,32 @@ class Beam(ByValue):
     def reversed(self) -> Beam:
         """Return the beam read from the other end.
 
+        What stands at a joint moves with the joint's left side. Where that matters it stands, read
+        from the other end, on a breakpoint of its own a few roundings to the right of the joint.
+
         Raises
         ------
         InputError
-            If it accelerates, or a mass or spring moves with the left side of a joint: read from
-            the other end it would stand on the right, where nothing can.
+            If it accelerates.
         """
         if self.axial_acceleration:
             raise InputError("a beam under acceleration cannot be reversed: tabulate N(x) instead")
-        check_no_side(self.attachments)
+        sides = beside_joints(self.attachments)
+        if sides:
+            return self._with_sides(sides)._turned()
+        return self._turned()
+
+    def _with_sides(self, joints: Sequence[float]) -> Beam:
+        """Return the beam with what moves with the left side of joints just left of them."""
+        gap = 64 * np.finfo(float).eps * max(abs(self.x[0]), abs(self.x[-1]))
+        moved = {x: x - gap for x in joints}
+        items = (
+            item if isinstance(item, Joint) else replace(item, x=moved.get(item.x, item.x))
+            for item in self.attachments
+        )
+        return replace(self._cut_at(list(moved.values())), attachments=tuple(items))
+
+    def _turned(self) -> Beam:
         flip: dict[str, Any] = {
             name: None if (v := getattr(self, name)) is None else v[::-1, ::-1].copy()
             for name in TABLES

@@ -16,6 +16,7 @@ from antinode.inputs.reading import MOST_ROWS, Row, read_bytes, station_columns
 from antinode.inputs.units import unit_factor
 from antinode.text import nearest, short
 
+from .families import FAMILIES
 from .station_csv import HULL, beam_table
 
 MOST_BYTES = 20_000_000
@@ -55,8 +56,8 @@ def read_workbook(path: Path, columns: tuple[str, ...]) -> dict[str, Any]:
         If it cannot be read.
     """
     sheets = _sheets(path)
-    name = "stations" if "stations" in sheets else next(iter(sheets), "")
-    table = beam_table(path, station_columns(sheets.get(name, []), (*columns, *HULL), path))
+    rows = station_columns(sheets.get("stations", []), (*columns, *HULL), path)
+    table = beam_table(path, rows)
     head = _head(sheets.get("beam", []), path)
     for sheet in ATTACHED:
         if sheet in sheets:
@@ -67,15 +68,13 @@ def read_workbook(path: Path, columns: tuple[str, ...]) -> dict[str, Any]:
 
 
 def _sheets(path: Path) -> dict[str, list[Row]]:
-    """Return the rows of the sheets that hold something of a beam, as text."""
+    """Return the rows of the sheets that hold something of a beam as text, by what they are."""
     content = io.BytesIO(read_bytes(path, MOST_BYTES, "a workbook"))
     openpyxl = import_extra("openpyxl", "exchange")
     try:
         book = openpyxl.load_workbook(content, read_only=True, data_only=True)
-        wanted = [n for n in ("stations", "beam", *ATTACHED) if n in book.sheetnames]
-        if "stations" not in wanted:
-            wanted = [*book.sheetnames[:1], *wanted]
-        sheets = {name: _rows(book[name], f"{path}: sheet {short(name)}") for name in wanted}
+        wanted = _wanted([n for n in book.sheetnames if _has_cells(book[n])], path)
+        sheets = {n: _rows(book[own], f"{path}: sheet {short(own)}") for n, own in wanted.items()}
         book.close()
     except InputError:
         raise
@@ -85,6 +84,38 @@ def _sheets(path: Path) -> dict[str, list[Row]]:
             "again, or write a .csv"
         ) from error
     return sheets
+
+
+_SHEETS = ("stations", "beam", *ATTACHED)
+_RESULTS = ("modes", *(symbol for f in FAMILIES.values() for symbol, _, _ in f.quantities))
+
+
+def _has_cells(sheet: Any) -> bool:
+    """Tell whether anything stands in a sheet, of a new workbook's three empty ones."""
+    rows = sheet.iter_rows(max_col=_MOST_COLUMNS, max_row=MOST_ROWS, values_only=True)
+    return any(value is not None for row in rows for value in row)
+
+
+def _wanted(names: list[str], path: Path) -> dict[str, str]:
+    """Return the sheets to read and their names; refuse one that was likely meant to be read.
+
+    Capitals and spaces do not count. Sheets with results are not read, nor those whose names start
+    with ``#``; the first one may have any name if none is called `stations`.
+    """
+    alike = {name: "_".join(name.lower().split()) for name in names}
+    wanted = {} if "stations" in alike.values() or not names else {"stations": names[0]}
+    for name in names:
+        if name in (*_RESULTS, *wanted.values()) or name.startswith("#"):
+            continue
+        if alike[name] not in _SHEETS or alike[name] in wanted:
+            other = wanted.get(alike[name])
+            near = f"there is {short(other)} already" if other else nearest(alike[name], _SHEETS)
+            raise InputError(
+                f"{path}: unknown sheet {short(name)}; {near} (# before the name of a sheet leaves "
+                "it out)"
+            )
+        wanted[alike[name]] = name
+    return wanted
 
 
 def _rows(sheet: Any, where: str) -> list[Row]:
@@ -111,6 +142,11 @@ def _text(value: object) -> str:
 
 def _head(rows: list[Row], path: Path) -> dict[str, Any]:
     """Return name, interpolation, ends and loads from the sheet `beam`."""
+    if rows and rows[0].cells[0].lower() != "key":
+        raise InputError(
+            f"{path}: sheet beam: the first row has {short(rows[0].cells[0])}; it must be the "
+            "heading: key, value"
+        )
     pairs = {row.cells[0]: row.cells[1] for row in rows[1:] if len(row.cells) > 1 and row.cells[1]}
     for key in pairs:
         if key not in KEYS:

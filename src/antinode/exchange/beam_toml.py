@@ -2,7 +2,8 @@
 
 N(x) stands in the column `axial_force` unless it grows with the mass. Then its jumps become point
 forces and the rest gravity, or the acceleration of a free beam: `N(x) = sum of the forces left of x
-+ a (mass left of x)`, closed by a force at the right end so that no support has to react.
++ a (mass left of x)`, closed by a force at the right end so that no support has to react. Where
+several supports share the load, what they do not make of the weight stands in the column.
 """
 
 from __future__ import annotations
@@ -14,10 +15,10 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
+from antinode.beam.axial import AxialLoads, apply_loads
 from antinode.beam.beam import Beam
 from antinode.beam.families import LONGITUDINAL
-from antinode.beam.file import BeamFile
-from antinode.errors import InputError
+from antinode.beam.file import COLUMNS, BeamFile
 from antinode.inputs.explain import validate
 from antinode.inputs.toml_writing import toml_text
 
@@ -45,7 +46,7 @@ def beam_file_text(beam: Beam) -> tuple[str, tuple[str, ...]]:
     Raises
     ------
     InputError
-        If its axial force cannot be written.
+        If several supports share its weight, and it has no EA.
     """
     tables, notes = beam_tables(beam)
     return toml_text({"beam": tables}), notes
@@ -57,12 +58,33 @@ def beam_tables(beam: Beam, hull: Hull | None = None) -> tuple[dict[str, Any], t
     With `hull` its stations have columns that a beam file does not know.
     """
     plain, loads = _split(beam)
+    tables, notes = _tables(beam, plain, loads, hull)
+    if loads and not _has_its_force(beam, tables):
+        tables, notes = _tables(beam, *_beside_weight(beam), hull)
+    return tables, notes
+
+
+def _tables(
+    beam: Beam, plain: Beam, loads: dict[str, Any], hull: Hull | None
+) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """Return the tables of a beam whose axial force is that of a plain one under loads."""
     stations = tabulate(plain)
     tables = head_tables(beam, stations) | attachment_tables(beam)
     if loads:
         tables["loads"] = loads
-        _check_force(beam, tables)
     return tables | {"stations": _columns(stations.with_hull(hull or {}))}, stations.notes
+
+
+def _beside_weight(beam: Beam) -> tuple[Beam, dict[str, Any]]:
+    """Return the beam with all of N that its weight on its supports does not make; and gravity."""
+    a = beam.axial_acceleration
+    bare = replace(beam, axial_force=np.zeros_like(beam.axial_force), axial_acceleration=0.0)
+    weight = AxialLoads(gravity=a, offset_weight=beam.offset_weight)
+    rest = beam.axial_force - apply_loads(bare, weight).axial_force
+    rest[np.abs(rest) <= 1e-12 * np.max(np.abs(beam.axial_force))] = 0.0
+    loads: dict[str, Any] = {"gravity": a}
+    loads |= {} if beam.offset_weight else {"offset_weight": False}
+    return replace(beam, axial_force=rest, axial_acceleration=0.0), loads
 
 
 def head_tables(beam: Beam, stations: Stations) -> dict[str, Any]:
@@ -133,16 +155,13 @@ def _axially_held(beam: Beam) -> set[int]:
     return held | {int(np.argmin(np.abs(beam.x - s.x))) for s in springs}
 
 
-def _check_force(beam: Beam, tables: dict[str, Any]) -> None:
-    """Raise InputError unless the tables give the axial force of the beam."""
-    again = validate(BeamFile, {"beam": tables}, "the beam").beam()
+def _has_its_force(beam: Beam, tables: dict[str, Any]) -> bool:
+    """Tell whether the tables, without columns of a hull, give the axial force of the beam."""
+    known = {name: c for name, c in tables["stations"].items() if name in COLUMNS}
+    again = validate(BeamFile, {"beam": {**tables, "stations": known}}, "the beam").beam()
     k = np.arange(len(beam.x) - 1)
     wanted = beam.axial_force_at(k, np.full(len(k), 0.5))
     middle = (beam.x[:-1] + beam.x[1:]) / 2
     at = np.searchsorted(again.x, middle, side="right") - 1
     got = again.axial_force_at(at, (middle - again.x[at]) / np.diff(again.x)[at])
-    if np.max(np.abs(got - wanted)) > _SAME * np.max(np.abs(wanted)):
-        raise InputError(
-            "the axial force of this beam grows with its mass, and several supports hold it "
-            "axially: a beam file cannot hold that; write a .csv or .xlsx, which tabulate it"
-        )
+    return bool(np.max(np.abs(got - wanted)) <= _SAME * np.max(np.abs(wanted)))

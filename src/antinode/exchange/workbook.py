@@ -18,14 +18,13 @@ import numpy as np
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES
 from antinode.beam.workbook import ATTACHED, KEYS
-from antinode.errors import InputError
 from antinode.extras import import_extra
 from antinode.inputs.reading import COLUMN_UNITS
 from antinode.modes.result import ModalResult
 from antinode.show.tables import modal_table
 
-from .beam_toml import attachment_tables, beam_tables, head_tables
-from .tabulated import Hull, tabulate
+from .beam_toml import beam_tables
+from .tabulated import Hull
 
 
 def write_workbook(
@@ -50,21 +49,12 @@ def write_workbook(
     book.remove(book.active)
     if result is not None:
         _fill(book, "modes", csv.reader(io.StringIO(modal_table(result))))
-    tables, notes = _tables(beam, hull)
+    tables, notes = beam_tables(beam, hull)
     _fill_beam(book, tables)
     if result is not None:
         _fill_shapes(book, result)
     book.save(path)
     return notes
-
-
-def _tables(beam: Beam, hull: Hull) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Return the tables of a beam file; N(x) is tabulated where they could not hold it."""
-    try:
-        return beam_tables(beam, hull)
-    except InputError:
-        stations = tabulate(beam).with_hull(hull)
-        return head_tables(beam, stations) | attachment_tables(beam), stations.notes
 
 
 def _fill_beam(book: Any, tables: dict[str, Any]) -> None:
