@@ -22,6 +22,7 @@ from antinode.beam.families import FAMILIES, FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import ComputationError, InputError
 from antinode.riccati.chain import omega2_scale
+from antinode.riccati.shapes import split_for
 
 from .backends import Backend, BackendName, choose, for_one
 from .brackets import ROUNDING, cancelling
@@ -185,6 +186,7 @@ def _modes_of(
     ]
     chain = solved.chain.cut_at(np.unique(grid - grid[0]))
     omega2 = np.array([solved.eigenvalues[k].omega2 for k in keep])
+    chain = split_for(chain, omega2)
     states = shapes(backend, beam, chain, solved.eigenvalues, keep, names)
     energies = backend.mode_energies(chain, states, omega2)
     scale = normalising_factors(chain, states, omega2, energies.mass, normalisation)
