@@ -23,7 +23,7 @@ from antinode.vehicle.case import Case, load_case
 
 Quantity = float | str
 """A number, or a text with the unit of the key that it belongs to."""
-MOST_CASES = 100_000_000
+MOST_CASES = 1_000_000_000
 MOST_VALUES = 1_000_000
 
 LOAD_OUTPUTS = {
@@ -166,6 +166,13 @@ class StudySolve(Frozen):
     families: tuple[FamilyName, ...] = Field(
         default=(BENDING,), min_length=1, max_length=3, description="families of modes"
     )
+
+    @model_validator(mode="after")
+    def _check_families(self) -> Self:
+        if len(set(self.families)) < len(self.families):
+            told = ", ".join(self.families)
+            raise ValueError(f"families names one twice ({told}); give each once")
+        return self
 
 
 class Run(Frozen):

@@ -8,22 +8,25 @@ memory does not grow with the number of cases.
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
 from antinode.arrays import Array
 from antinode.errors import InputError
-from antinode.text import short
+from antinode.text import nearest, short
 
-from .file import MOST_CASES, Study
+from .file import LOAD_OUTPUTS, MODE_OUTPUTS, MOST_CASES, Study
+from .samples import SobolSamples, latin_column, random_samples
 from .variables import Variable, variables_of
 
 _MOST_PERMUTED = 10_000_000
 _MOST_SOBOL = 21_000
 _SAMPLED = ("random", "latin_hypercube", "sobol", "saltelli")
+GROWING = ("random", "latin_hypercube", "sobol")
+"""Designs to which samples can be added."""
 
 
 @dataclass(frozen=True)
@@ -79,15 +82,12 @@ class Points:
         """Return numbers between 0 and 1, shape (cases, variables)."""
         design, d = self.study.design, len(self.variables)
         if design.kind == "sobol":
-            return self._sobol(start, stop, d)
+            return self._sequence.rows(start, stop)
         if design.kind == "saltelli":
             return self._saltelli(start, stop)
-        rng = np.random.default_rng([design.seed, 1, chunk])
-        inside = rng.random((stop - start, d))
         if design.kind == "random":
-            return inside
-        strata = np.stack([p[start:stop] for p in self._permutations], axis=1)
-        return np.asarray((strata + inside) / self.cases)
+            return random_samples(design.seed, chunk, stop - start, d)
+        return np.stack([column[start:stop] for column in self._latin_columns], axis=1)
 
     def _saltelli(self, start: int, stop: int) -> Array:
         """Return rows of A, then B, then A with column 1, 2, ... of B."""
@@ -96,29 +96,42 @@ class Points:
         parts = []
         for block in range(start // number, (stop - 1) // number + 1):
             first, last = max(start - block * number, 0), min(stop - block * number, number)
-            both = self._sobol(first, last, 2 * d)
+            both = self._sequence.rows(first, last)
             u = both[:, d:] if block == 1 else both[:, :d].copy()
             if block > 1:
                 u[:, block - 2] = both[:, d + block - 2]
             parts.append(u)
         return np.concatenate(parts)
 
-    def _sobol(self, start: int, stop: int, dimensions: int) -> Array:
-        from scipy.stats import qmc
-
-        engine = qmc.Sobol(dimensions, scramble=True, rng=self.study.design.seed)
-        if start:
-            engine.fast_forward(start)
-        import warnings
-
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of a number of points that is no power of two
-            return np.asarray(engine.random(stop - start))
+    @cached_property
+    def _sequence(self) -> SobolSamples:
+        d, kind = len(self.variables), self.study.design.kind
+        return SobolSamples(self.study.design.seed, 2 * d if kind == "saltelli" else d)
 
     @cached_property
-    def _permutations(self) -> list[npt.NDArray[np.int64]]:
-        seeds = [[self.study.design.seed, 2, k] for k in range(len(self.variables))]
-        return [np.random.default_rng(seed).permutation(self.cases) for seed in seeds]
+    def _latin_columns(self) -> list[Array]:
+        seed = self.study.design.seed
+        return [latin_column(seed, k, self.cases) for k in range(len(self.variables))]
+
+    @property
+    def grows(self) -> bool:
+        """Whether a design of more cases begins with the cases of this one."""
+        return self.study.design.kind in GROWING
+
+    def extends(self, cases: int) -> bool:
+        """Tell whether this design begins with the cases of one of fewer cases."""
+        if not self.grows or not 0 < cases <= self.cases:
+            return False
+        times, rest = divmod(self.cases, cases)
+        doubled = not rest and not times & (times - 1)
+        return doubled or self.study.design.kind != "latin_hypercube"
+
+
+def resized(points: Points, cases: int) -> Points:
+    """Return a design of samples with another number of them."""
+    design = points.study.design.model_copy(update={"number": cases})
+    study = points.study.model_copy(update={"design": design})
+    return Points(study, points.variables, cases, (cases,))
 
 
 def points_of(study: Study) -> Points:
@@ -150,10 +163,8 @@ def points_of(study: Study) -> Points:
             "take fewer values, or a sobol design with fewer samples"
         )
     for v in variables:
-        if kind in _SAMPLED:
-            v.quantile(np.array([0.5]))
-        else:
-            v.listed  # noqa: B018
+        _check_values(v, sampled=kind in _SAMPLED)
+    _check_figure(study, variables)
     return Points(study, variables, cases, shape if kind == "grid" else (cases,))
 
 
@@ -197,11 +208,40 @@ def _zip_number(variables: tuple[Variable, ...]) -> tuple[int, tuple[int, ...]]:
     return number, (number,)
 
 
+def _check_values(variable: Variable, *, sampled: bool) -> None:
+    """Refuse values that are none, times that go back, and factors on nothing."""
+    if sampled:
+        variable.quantile(np.array([0.5]))
+        return
+    values, name = variable.listed, variable.name
+    back = np.diff(values) <= 0
+    if variable.kind == "time" and back.any():
+        at = int(np.argmax(back))
+        raise InputError(
+            f"inputs, {name}: {values[at + 1]:g} s comes after {values[at]:g} s (values {at + 1} "
+            f"and {at + 2}); sort the rows by time, each once"
+        )
+
+
+def _check_figure(study: Study, variables: tuple[Variable, ...]) -> None:
+    names = [v.name for v in variables]
+    if study.figure.x is not None and study.figure.x not in names:
+        wrong = short(study.figure.x)
+        raise InputError(f"figure.x = {wrong} is no input; {nearest(study.figure.x, names)}")
+
+
 def _check_names(variables: tuple[Variable, ...]) -> None:
     seen: dict[str, str] = {}
     for v in variables:
-        if v.name in _RESERVED:
-            raise InputError(f"inputs: the name '{v.name}' is taken by the result; give another")
+        if not _NAME.fullmatch(v.name):
+            raise InputError(
+                f"inputs: the name {short(v.name)} cannot stand in a store; take letters, digits, "
+                "spaces and . _ - + : ( ), a letter first"
+            )
+        if v.name in RESERVED:
+            raise InputError(
+                f"inputs: the name {short(v.name)} is taken by the result; give another name"
+            )
         if v.name in seen:
             raise InputError(f"inputs: two of them are called {short(v.name)}; give one a name")
         seen[v.name] = v.key
@@ -211,4 +251,11 @@ def _check_names(variables: tuple[Variable, ...]) -> None:
             raise InputError(f"inputs: {key} stands there twice; remove one")
 
 
-_RESERVED = ("case", "mode", "reason", "track", "chunk", "checksum", "frequency_hz", "point")
+_NAME = re.compile(r"[^\W\d_][\w .+:()\[\]-]*(?<![ .])")
+RESERVED = (
+    *("case", "mode", "reason", "warned", "track", "chunk", "checksum", "point", "shape"),
+    *("tracked_mode", "tracked_mac", "tracked_doubtful", "tracked_frequency_hz", "coordinates"),
+    *MODE_OUTPUTS,
+    *LOAD_OUTPUTS,
+)
+"""Names that no input can have: those of the result."""

@@ -193,6 +193,11 @@ def variables_of(case: Case, given: StudyInput) -> list[Variable]:
         raise InputError(
             f"inputs: key = {short(given.key)}: the case has no value for a factor to multiply"
         )
+    if given.factor and start == 0:
+        raise InputError(
+            f"inputs: key = {short(given.key)}: the case has 0 there, which no factor changes; "
+            "leave out factor and give values of its own"
+        )
     name = given.name or str(place.keys[-1] if isinstance(place.keys[-1], str) else place.text)
     unit = "1" if given.factor else place.unit or "1"
     return [

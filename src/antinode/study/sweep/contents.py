@@ -15,9 +15,11 @@ from antinode.study.cases.chunks import mode_names
 from antinode.study.cases.reasons import WHY, failed
 from antinode.study.cases.warned import counted_warnings, messages, type_of_bits
 from antinode.study.design.file import LOAD_OUTPUTS, MODE_OUTPUTS, Study
-from antinode.study.design.points import Points
+from antinode.study.design.points import GROWING, Points
 from antinode.vehicle.case import Case
 from antinode.version import __version__
+
+from .build import sources_hash
 
 if TYPE_CHECKING:
     import xarray
@@ -124,10 +126,13 @@ def _tracked_variables(study: Study, n: int, modes: int) -> dict[str, Output]:
 
 def coordinates_of(points: Points) -> dict[str, Coordinate]:
     """Return the coordinates that are known beforehand."""
-    if not points.tracked:
-        return {}
-    about = {"units": "m", "long_name": "position from the nose"}
-    return {"point": Coordinate("point", tracking_points(points.study), about)}
+    names = np.array(mode_names(points.study), dtype=object)
+    found = {"mode": Coordinate("mode", names, {})}
+    if points.tracked:
+        about = {"units": "m", "long_name": "position from the nose"}
+        found["track"] = Coordinate("track", names, {})
+        found["point"] = Coordinate("point", tracking_points(points.study), about)
+    return found
 
 
 def tracking_points(study: Study) -> npt.NDArray[np.float64]:
@@ -143,6 +148,7 @@ def attributes(points: Points) -> dict[str, Any]:
         "source": f"antinode {__version__}",
         "store_format": FORMAT,
         "antinode_version": __version__,
+        "sources_hash": sources_hash(),
         "case_hash": case_hash(study.case),
         "study_hash": study_hash(study),
         "cases": points.cases,
@@ -162,7 +168,7 @@ def attributes(points: Points) -> dict[str, Any]:
 
 def final_attributes(
     points: Points,
-    reason: npt.NDArray[Any],
+    reasons: Iterable[npt.NDArray[Any]],
     bits: Iterable[npt.NDArray[Any]],
     doubtful: npt.NDArray[Any] | None,
 ) -> dict[str, Any]:
@@ -171,9 +177,8 @@ def final_attributes(
     Parameters
     ----------
     points : Points
-    reason : array of int, shape (cases,)
-    bits : iterable of array of int
-        The variable `warned`, one block after the other.
+    reasons, bits : iterable of array of int
+        The variables `reason` and `warned`, one block after the other.
     doubtful : array of int, shape (cases, tracks), or None
         Which modes are doubtful, if they are tracked.
     """
@@ -187,7 +192,8 @@ def final_attributes(
         found += counted_warnings(
             [told], [np.any(doubtful, axis=1) * np.ones(1, np.int8)], points.cases
         )
-    return {"failed": int(np.count_nonzero(failed(reason))), "warnings": found, "finished": _now()}
+    number = sum(int(np.count_nonzero(failed(some))) for some in reasons)
+    return {"failed": number, "warnings": found, "finished": _now()}
 
 
 def _now() -> str:
@@ -209,8 +215,14 @@ def case_hash(case: Case) -> str:
 
 
 def study_hash(study: Study) -> str:
-    """Return what stands for a study; its figure and its name do not count."""
-    return _hash(study.model_dump(mode="json", exclude={"case", "figure", "name"}))
+    """Return what stands for a study; its figure and its name do not count.
+
+    Nor does the number of samples of a design that can grow.
+    """
+    kept = study.model_dump(mode="json", exclude={"case", "figure", "name"})
+    if study.design.kind in GROWING:
+        kept["design"].pop("number")
+    return _hash(kept)
 
 
 def _hash(data: Any) -> str:

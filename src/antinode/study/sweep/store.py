@@ -1,14 +1,15 @@
 """The store of a sweep: a zarr v3 group on disk that a kill at any moment cannot hurt.
 
-Every variable is an array over cases, cut where the study cuts its chunks; `checksum` has a number
-for each chunk, written after its data, and 0 until then. What a checksum does not confirm is
-computed again.
+Variables are cut into blocks of whole chunks. Whoever computes a block writes its files; when they
+are on the disk, the one run that holds the store enters the block into the ledger. What the ledger
+does not confirm is computed again.
 """
 
 from __future__ import annotations
 
 import errno
-import hashlib
+import shutil
+import uuid
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -17,9 +18,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from antinode.errors import ComputationError, InputError
+from antinode.errors import ComputationError
+from antinode.study.design.points import Points
 
-from .folder import import_store
+from .blocks import Blocks, Written
+from .contents import TRACKED, outputs_of
+from .disk import keep_folder, partial_folder, write_lasting
+from .documents import METADATA, attributes_of, group_document
+from .ledger import Ledger, Record
+from .work import Done, Plan, Target, blocks_of, run_file
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
@@ -30,119 +37,121 @@ class Store:
     Parameters
     ----------
     path : Path
-    chunk : int
-        Cases in a chunk.
-    cases : int
+    points : Points
+    rows : int
+        Cases of a block.
     """
 
-    def __init__(self, path: Path, chunk: int, cases: int) -> None:
-        self.path, self.chunk, self.cases = path, chunk, cases
-        self.group = import_store().open_group(path, mode="r+")
+    def __init__(self, path: Path, points: Points, rows: int) -> None:
+        self.path, self.points = path, points
+        self.plan = Plan(points, rows, Target(str(path.resolve()), uuid.uuid4().hex))
+        self.blocks = blocks_of(self.plan)
+        outputs = {k: v for k, v in outputs_of(points).items() if k in TRACKED}
+        self._after = Blocks(path, outputs, rows, points.cases)
+        self._ledger = Ledger(path)
 
-    @property
-    def chunks(self) -> int:
-        """Number of chunks; a last entry of `checksum` stands for what comes after them."""
-        return -(-self.cases // self.chunk)
-
-    def write(self, chunk: int, arrays: Mapping[str, npt.NDArray[Any]]) -> None:
-        """Write a chunk: first its data, then its checksum.
+    @contextmanager
+    def run(self) -> Iterator[None]:
+        """Name this run as the one that works on the store, as long as it does.
 
         Raises
         ------
         ComputationError
-            If the disk is full, or fails.
+            If the disk is full, or fails, for this process or a worker.
         """
-        start, stop = self._bounds(chunk)
-        with self._failing():
-            for name, values in arrays.items():
-                self.group[name][start:stop] = values
-            self.group["checksum"][chunk] = checksum(arrays)
+        target, place = self.plan.target, run_file(self.path)
+        assert target is not None
+        try:
+            with self._failing():
+                place.write_text(target.run)
+                yield
+        finally:
+            with suppress(OSError):
+                if place.read_text() == target.run:
+                    place.unlink()
+                    shutil.rmtree(partial_folder(self.path), ignore_errors=True)
 
-    def finish(self, arrays: Mapping[str, npt.NDArray[Any]], attrs: Mapping[str, Any]) -> None:
-        """Write what comes after all chunks, over all cases."""
-        with self._failing():
-            for name, values in arrays.items():
-                self.group[name][:] = values
-            self.group.attrs.update(attrs)
-            self.group["checksum"][self.chunks] = checksum(arrays)
+    def left(self) -> list[int]:
+        """Return the blocks that are not there, or not as they were written."""
+        return [block for block in range(self.blocks.number) if not self._is_done(block)]
 
-    def unfinished(self, names: tuple[str, ...], after: tuple[str, ...]) -> list[int]:
-        """Return the chunks that are not there, or not as they were written.
+    def _is_done(self, block: int) -> bool:
+        record = self._ledger.records.get(block)
+        return (
+            record is not None
+            and record.cases == self.plan.cases(block)
+            and self.blocks.agree(block, Written(record.digest, record.files))
+        )
 
-        Where all are, but not what comes `after` them, the number behind the last one.
+    @property
+    def finished(self) -> bool:
+        """Whether all that comes after the blocks is there."""
+        try:
+            told = "finished" in attributes_of((self.path / METADATA).read_bytes())
+        except (OSError, ValueError):
+            return False
+        return told and all(map(self._is_after, range(self._after.number)))
+
+    def _is_after(self, block: int) -> bool:
+        if not self._after.outputs:
+            return True
+        record = self._ledger.records.get(-1 - block)
+        return record is not None and self._after.agree(block, Written(record.digest, record.files))
+
+    def take(self, done: Done) -> None:
+        """Enter a block into the ledger; write it first if nobody has.
 
         Raises
         ------
-        InputError
-            If the store has lost a variable.
+        ComputationError
+            If the store is not there any more.
         """
-        self._check_arrays((*names, *after))
-        wanted = self._checksums()
-        left = [c for c in range(self.chunks) if not self._holds(c, int(wanted[c]), names)]
-        if not left and not self._holds_after(int(wanted[self.chunks]), after):
-            left.append(self.chunks)
-        return left
+        self._check_place()
+        written = done.written
+        if written is None or not self.blocks.agree(done.block, written):
+            written = self._written_here(done)
+        cases = self.plan.cases(done.block)
+        self._ledger.add(Record(done.block, cases, *written, done.kernel))
 
-    def _checksums(self) -> list[int]:
-        """Return the checksums that can be read; 0 for those that are damaged."""
-        found = []
-        for chunk in range(self.chunks + 1):
-            try:
-                found.append(int(self.group["checksum"][chunk]))
-            except Exception:  # whatever a codec says of bytes that are not its own
-                found.append(0)
-        return found
+    def _written_here(self, done: Done) -> Written:
+        if done.arrays is None:
+            raise ComputationError(
+                f"{self.path}: block {done.block} is not as a worker says that it wrote it; do all "
+                "of them see the same folder? What is in the ledger is kept: run the same command "
+                "again"
+            )
+        return self.blocks.write(done.block, done.arrays)
 
-    def mend(self, name: str, values: npt.NDArray[Any]) -> None:
-        """Write a coordinate that is known beforehand again, if it is damaged."""
-        if not self._checked(checksum({name: values}), (name,), slice(None)):
-            with self._failing():
-                self.group[name][:] = values
+    def _check_place(self) -> None:
+        """Refuse to write where the store no longer is."""
+        assert self.plan.target is not None
+        if not self.plan.target.is_here():
+            raise ComputationError(
+                f"{self.path}: the store was moved, removed or replaced while the sweep ran; put "
+                "it back, or name its new place, and run the same command again"
+            )
 
-    def _check_arrays(self, names: tuple[str, ...]) -> None:
-        for name in (*names, "checksum"):
-            try:
-                fits = name == "checksum" or self.group[name].shape[0] == self.cases
-            except Exception:  # zarr has errors of its own for what is missing or damaged
-                fits = False
-            if not fits:
-                raise InputError(
-                    f"{self.path}: {name} is damaged beyond repair; add --overwrite to begin anew"
-                )
-
-    def _holds(self, chunk: int, wanted: int, names: tuple[str, ...]) -> bool:
-        start, stop = self._bounds(chunk)
-        return wanted != 0 and self._checked(wanted, names, slice(start, stop))
-
-    def _holds_after(self, wanted: int, names: tuple[str, ...]) -> bool:
-        return wanted != 0 and self._checked(wanted, names, slice(None))
-
-    def _checked(self, wanted: int, names: tuple[str, ...], part: slice) -> bool:
-        try:
-            return checksum({name: self.group[name][part] for name in names}) == wanted
-        except Exception:  # whatever a codec says of bytes that are not its own
-            return False
+    def finish(self, arrays: Mapping[str, npt.NDArray[Any]], attrs: Mapping[str, Any]) -> None:
+        """Write what comes after all blocks, over all cases, and the attributes known then."""
+        self._check_place()
+        for block in range(self._after.number if arrays else 0):
+            start, stop = self._after.bounds(block)
+            written = self._after.write(block, {k: v[start:stop] for k, v in arrays.items()})
+            self._ledger.add(Record(-1 - block, stop - start, *written, ""))
+        document = (self.path / METADATA).read_bytes()
+        write_lasting(self.path, self.path / METADATA, with_attributes(document, attrs))
+        keep_folder(self.path)
 
     def read(self, name: str) -> npt.NDArray[Any]:
         """Return a whole variable."""
-        return np.asarray(self.group[name][:])
-
-    def blocks(self, name: str) -> Iterator[npt.NDArray[Any]]:
-        """Yield a variable chunk by chunk."""
-        for chunk in range(self.chunks):
-            start, stop = self._bounds(chunk)
-            yield np.asarray(self.group[name][start:stop])
-
-    def _bounds(self, chunk: int) -> tuple[int, int]:
-        return chunk * self.chunk, min(self.cases, (chunk + 1) * self.chunk)
+        return np.concatenate(list(self.blocks.each(name)))
 
     @contextmanager
     def _failing(self) -> Iterator[None]:
         try:
             yield
         except OSError as error:
-            wanted = self._kept()
-            kept = f"{wanted} of {self.chunks} chunks are kept: "
+            kept = f"{self._kept()} of {self.points.chunks} chunks are kept: "
             if error.errno in _FULL:
                 raise ComputationError(
                     f"{self.path}: no space is left on the disk; {kept}make room and run the same "
@@ -154,15 +163,14 @@ class Store:
             ) from error
 
     def _kept(self) -> int:
-        with suppress(Exception):
-            return int(np.count_nonzero(self._checksums()[:-1]))
-        return 0
+        done = [block for block in self._ledger.records if block >= 0]
+        return sum(len(self.plan.chunks(block)) for block in done)
 
 
-def checksum(arrays: Mapping[str, npt.NDArray[Any]]) -> int:
-    """Return a number of 64 bits that stands for the arrays; never 0."""
-    digest = hashlib.blake2b(digest_size=8)
-    for name in sorted(arrays):
-        digest.update(name.encode())
-        digest.update(np.ascontiguousarray(arrays[name]).tobytes())
-    return int.from_bytes(digest.digest(), "little") or 1
+def with_attributes(document: bytes, attrs: Mapping[str, Any]) -> bytes:
+    """Return the metadata of a group with some attributes added."""
+    import json
+
+    whole = json.loads(document)
+    found = {**whole["attributes"], **attrs}
+    return group_document(found, whole["consolidated_metadata"]["metadata"])

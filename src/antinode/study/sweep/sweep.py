@@ -22,8 +22,8 @@ from antinode.study.cases.reasons import failed
 from antinode.study.design.file import Study
 from antinode.study.design.points import Points, points_of
 
+from .cluster import close, connect, run_on_dask
 from .contents import (
-    TRACKED,
     attributes,
     coordinates_of,
     final_attributes,
@@ -31,11 +31,12 @@ from .contents import (
     outputs_of,
     tracking_points,
 )
-from .executors import Done, connect, joined, run_here, run_in_pool, run_on_dask
-from .folder import check_same, create, import_store, open_store, remove
+from .executors import refuse_second_script, run_here, run_in_pool
+from .folder import create, import_store, open_store, remove, resume
 from .lock import locked
 from .store import Store
 from .tracking import neighbours, track
+from .work import Done, Plan, joined
 
 if TYPE_CHECKING:
     import xarray
@@ -84,12 +85,13 @@ def sweep(
     ComputationError
         If the disk is full, or the workers fail.
     """
+    refuse_second_script()
     points = points_of(study)
     check_size(points, in_memory=store is None)
     import_store()
     if workers < 1:
         raise InputError(f"workers is {workers}; take 1 or more")
-    with _executor(points, workers, scheduler) as run:
+    with _executor(workers, scheduler) as run:
         if store is None:
             return _in_memory(points, run, progress)
         return _into_store(points, Path(store), run, progress, overwrite=overwrite)
@@ -112,33 +114,36 @@ def check_size(points: Points, *, in_memory: bool) -> None:
         )
 
 
+Run = Callable[[Plan, list[int]], Iterator[Done]]
+"""Computes some blocks of a plan."""
+
+
 @contextmanager
-def _executor(
-    points: Points, workers: int, scheduler: str | None
-) -> Iterator[Callable[[list[int]], Done]]:
-    """Return what computes chunks."""
+def _executor(workers: int, scheduler: str | None) -> Iterator[Run]:
+    """Return what computes blocks."""
     if scheduler is not None:
         client = connect(scheduler)
         try:
-            yield lambda chunks: run_on_dask(points, chunks, client)
+            yield lambda plan, blocks: run_on_dask(plan, blocks, client)
         finally:
-            client.close(timeout=5)
+            close(client)
     elif workers > 1:
-        yield lambda chunks: run_in_pool(points, chunks, min(workers, len(chunks)))
+        yield lambda plan, blocks: run_in_pool(plan, blocks, min(workers, len(blocks)))
     else:
-        yield lambda chunks: run_here(points, chunks)
+        yield run_here
 
 
-def _in_memory(
-    points: Points, run: Callable[[list[int]], Done], progress: Progress | None
-) -> xarray.Dataset:
+def _in_memory(points: Points, run: Run, progress: Progress | None) -> xarray.Dataset:
     import xarray
 
+    plan = Plan(points, min(points.study.run.chunk, points.cases))
     found: dict[int, Arrays] = {}
-    for chunk, arrays in run(list(range(points.chunks))):
-        found[chunk] = arrays
-        _tell(progress, points, found)
-    arrays = joined(found[chunk] for chunk in range(points.chunks))
+    told = _Told(progress, plan)
+    for done in run(plan, list(range(plan.blocks))):
+        assert done.arrays is not None
+        found[done.block] = done.arrays
+        told.add(done.block)
+    arrays = joined(found[block] for block in range(plan.blocks))
     arrays |= tracked(points, arrays)
     about = outputs_of(points)
     data: dict[str, Any] = {
@@ -146,51 +151,65 @@ def _in_memory(
     }
     data.update(coordinates_of(points))
     everything = attributes(points) | final_attributes(
-        points, arrays["reason"], [arrays["warned"]], arrays.get("tracked_doubtful")
+        points, [arrays["reason"]], [arrays["warned"]], arrays.get("tracked_doubtful")
     )
     return labelled(xarray.Dataset(data, attrs=everything))
 
 
 def _into_store(
-    points: Points,
-    path: Path,
-    run: Callable[[list[int]], Done],
-    progress: Progress | None,
-    *,
-    overwrite: bool,
+    points: Points, path: Path, run: Run, progress: Progress | None, *, overwrite: bool
 ) -> xarray.Dataset:
-    attrs = attributes(points)
-    about = outputs_of(points)
     _check_folder(path)
     with locked(path):
         if path.exists() and overwrite:
             remove(path)
-        if path.exists():
-            check_same(path, attrs)
-        else:
-            create(path, about, coordinates_of(points), attrs, points.study.run.chunk)
-        store = Store(path, points.study.run.chunk, points.cases)
-        names = tuple(name for name in about if name not in TRACKED)
-        after = tuple(name for name in about if name in TRACKED)
-        missing = store.unfinished(names, after)
-        for name, coordinate in coordinates_of(points).items():
-            store.mend(name, coordinate.values)
-        left = [c for c in missing if c < points.chunks]
-        done = set(range(points.chunks)) - set(left)
-        _tell(progress, points, done)
-        for chunk, arrays in run(left) if left else ():
-            store.write(chunk, arrays)
-            done.add(chunk)
-            _tell(progress, points, done)
-        if missing:
-            wanted = ("reason", "shape", "frequency_hz") if after else ("reason",)
-            whole = {name: store.read(name) for name in wanted if name in about}
-            tracks = tracked(points, whole)
-            told = final_attributes(
-                points, whole["reason"], store.blocks("warned"), tracks.get("tracked_doubtful")
-            )
-            store.finish(tracks, told)
+        store = resume(path, points) if path.exists() else create(path, points)
+        left = store.left()
+        told = _Told(progress, store.plan, left)
+        if left or not store.finished:
+            with store.run():
+                for done in run(store.plan, left) if left else ():
+                    store.take(done)
+                    told.add(done.block)
+                _finish(store)
     return open_store(path)
+
+
+def _finish(store: Store) -> None:
+    """Write what is known after all blocks."""
+    points, blocks = store.points, store.blocks
+    about, tracks = outputs_of(points), {}
+    if points.tracked:
+        wanted = ("reason", "shape", "frequency_hz")
+        tracks = tracked(points, {name: store.read(name) for name in wanted if name in about})
+    store.finish(
+        tracks,
+        final_attributes(
+            points, blocks.each("reason"), blocks.each("warned"), tracks.get("tracked_doubtful")
+        ),
+    )
+
+
+class _Told:
+    """Tells how many cases are done."""
+
+    def __init__(
+        self, progress: Progress | None, plan: Plan, left: list[int] | None = None
+    ) -> None:
+        self._progress, self._plan = progress, plan
+        self._done = plan.points.cases
+        self._done -= sum(map(plan.cases, range(plan.blocks) if left is None else left))
+        if left is not None:
+            self._tell()
+
+    def add(self, block: int) -> None:
+        """Count a block."""
+        self._done += self._plan.cases(block)
+        self._tell()
+
+    def _tell(self) -> None:
+        if self._progress is not None:
+            self._progress(self._done, self._plan.points.cases)
 
 
 def _check_folder(path: Path) -> None:
@@ -201,12 +220,6 @@ def _check_folder(path: Path) -> None:
         raise InputError(f"{path}: this is a file; name a folder for the store")
     if not os.access(path if path.exists() else path.parent, os.W_OK):
         raise InputError(f"{path} cannot be written (Permission denied); name another folder")
-
-
-def _tell(progress: Progress | None, points: Points, done: Any) -> None:
-    if progress is not None:
-        cases = sum(points.bounds(c)[1] - points.bounds(c)[0] for c in done)
-        progress(cases, points.cases)
 
 
 def tracked(points: Points, arrays: Arrays) -> Arrays:

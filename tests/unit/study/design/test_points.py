@@ -180,7 +180,7 @@ REFUSED = {
 
 @pytest.mark.parametrize("name", REFUSED)
 def test_a_bad_study_gets_one_sentence_and_writes_nothing(tmp_path, name, monkeypatch):
-    monkeypatch.setattr("antinode.study.sweep.executors._SECONDS", 1)
+    monkeypatch.setattr("antinode.study.sweep.cluster._SECONDS", 1)
     text, words = REFUSED[name]
     run("init", tmp_path)
     (tmp_path / "study.toml").write_text(HEAD + text)

@@ -13,8 +13,9 @@ import pytest
 import xarray
 
 import antinode as an
-from antinode.study.sweep import store as store_module
+from antinode.study.sweep import blocks
 from antinode.study.sweep.contents import TIMESTAMPS
+from antinode.study.sweep.ledger import ledger_of
 from antinode.study.sweep.lock import locked
 from antinode.study.sweep.sweep import sweep
 from cli_run import contents, python, refused, run
@@ -75,9 +76,12 @@ def test_the_store_holds_what_memory_would(study, whole):
 
 
 def test_any_reader_of_zarr_reads_it(whole):
-    with xarray.open_zarr(whole, consolidated=False, chunks=None) as plain:
-        assert plain.frequency_hz.dims == ("case", "mode")
-        assert plain.frequency_hz.attrs["units"] == "Hz"
+    for options in ({}, {"consolidated": False, "chunks": None}):
+        with xarray.open_zarr(whole, **options) as plain:
+            assert plain.frequency_hz.dims == ("case", "mode")
+            assert plain.frequency_hz.attrs["units"] == "Hz"
+            assert list(plain.mode.values) == [f"bending {k}" for k in range(1, 7)]
+            assert {"speed", "thrust"} < set(plain.coords)
 
 
 def test_a_run_goes_on_where_it_was_stopped(study, whole, tmp_path):
@@ -127,8 +131,9 @@ def test_tracked_modes_are_written_again_if_they_are_damaged(folder, tmp_path):
     sweep(study, path)
     shutil.copytree(path, other)
     (other / "tracked_mode" / "c" / "1" / "0").unlink()
-    (other / "checksum" / "c" / "3").write_bytes(b"no number")
-    (other / "checksum" / "c" / "1").write_bytes(b"")
+    ledger = ledger_of(other)
+    first, second, *rest = ledger.read_bytes().splitlines(keepends=True)
+    ledger.write_bytes(first + second.replace(b"1", b"2", 1) + b"".join(rest)[:-9])
     (other / "point" / "c" / "0").unlink()
     sweep(study, other)
     same(path, other)
@@ -145,7 +150,8 @@ def test_a_store_that_is_damaged_beyond_repair_says_so(study, whole, tmp_path):
 
 
 OTHERS = {
-    "study": (("design.number=97", "run.chunk=16"), "another study"),
+    "study": (("design.number=96", "run.chunk=16", "solve.modes=5"), "another study"),
+    "fewer": (("design.number=95", "run.chunk=16"), "holds 96 cases, design.number asks for 95"),
     "chunk": (("design.number=96", "run.chunk=24"), "another study"),
 }
 
@@ -203,15 +209,14 @@ def test_a_folder_that_cannot_be_written_is_refused(study, tmp_path, monkeypatch
 
 
 def test_a_full_disk_says_so_and_goes_on_later(study, whole, tmp_path, monkeypatch):
-    path, checksum, count = tmp_path / "s.zarr", store_module.checksum, []
+    path, write = tmp_path / "s.zarr", blocks.write_lasting
 
-    def full(arrays):
-        count.append(1)
-        if len(count) == 3:
+    def full(store, file, data):
+        if file.match("reason/c/2"):
             raise OSError(errno.ENOSPC, "No space left on device")
-        return checksum(arrays)
+        write(store, file, data)
 
-    monkeypatch.setattr(store_module, "checksum", full)
+    monkeypatch.setattr(blocks, "write_lasting", full)
     with pytest.raises(an.ComputationError, match="no space is left on the disk; 2 of 6 chunks"):
         sweep(study, path)
     monkeypatch.undo()
@@ -223,7 +228,7 @@ def test_a_broken_writer_leaves_no_half_made_store(study, tmp_path, monkeypatch)
     def full(*_, **__):
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("zarr.Group.create_array", full)
+    monkeypatch.setattr("antinode.study.sweep.folder.write_lasting", full)
     with pytest.raises(an.InputError, match="cannot be written"):
         sweep(study, tmp_path / "s.zarr")
     assert contents(tmp_path) == {}
