@@ -24,7 +24,7 @@ import numpy as np
 
 import antinode as an
 from antinode.study.sweep.contents import TIMESTAMPS
-from antinode.study.sweep.store import checksum
+from antinode.study.sweep.ledger import Ledger
 
 HERE = Path(__file__).resolve().parent
 STUDIES = {
@@ -122,10 +122,10 @@ def done_chunks(reference, path):
     if not path.exists():
         return 0, 0
     group = zarr.open_group(path, mode="r")
-    done = np.flatnonzero(group["checksum"][:-1])
-    size, wrong = group.attrs["chunk"], 0
-    names = [n for n, v in reference.data.items() if n != "checksum"]
-    names = [n for n in names if not n.startswith("tracked") and n != "point"]
+    done = [block for block in Ledger(path).records if block >= 0]
+    size, wrong = group["reason"].chunks[0], 0
+    names = [n for n in reference.data if n not in ("point", "mode", "track")]
+    names = [n for n in names if not n.startswith("tracked")]
     for chunk in done:
         part = slice(chunk * size, (chunk + 1) * size)
         for name in names:
@@ -332,7 +332,6 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     rng = np.random.default_rng(arguments.seed)
-    assert checksum({}) != 0
     with tempfile.TemporaryDirectory() as name, Cluster() as cluster:
         folder = Path(name)
         subprocess.run(command("init", "--example", "sweep", folder), check=True)

@@ -43,7 +43,8 @@ def connect(scheduler: str) -> Any:
     import logging
 
     dask = import_extra("distributed", "dask")
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    for name in ("distributed", "distributed.client", "distributed.core"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
         return dask.Client(scheduler, timeout=_SECONDS, set_as_default=False)
     except (OSError, ValueError, TimeoutError, TypeError) as error:

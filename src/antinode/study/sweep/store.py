@@ -151,6 +151,8 @@ class Store:
         try:
             yield
         except OSError as error:
+            if error.errno is None:  # of no disk
+                raise
             kept = f"{self._kept()} of {self.points.chunks} chunks are kept: "
             if error.errno in _FULL:
                 raise ComputationError(

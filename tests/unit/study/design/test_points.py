@@ -1,5 +1,6 @@
 """Designs: grids, tables and samples, and studies that are refused in one sentence."""
 
+import time
 import tomllib
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 import antinode as an
 from antinode.study.design.file import Study
 from antinode.study.design.points import points_of
+from antinode.study.design.samples import SobolSamples, latin_column
 from cli_run import contents, refused, run
 
 
@@ -171,6 +173,31 @@ REFUSED = {
     ),
     "a choice": ("inputs = [{ key = 'model.planing', values = [1] }]", ("model.planing",)),
     "no table": ("design = { kind = 'zip', table = 'none.csv' }", ("none.csv",)),
+    "a name that leads out of the store": (
+        "inputs = [{ key = 'speed', name = '../x', values = [60] }]",
+        ("../x", "letters"),
+    ),
+    "a name of an output": (
+        "inputs = [{ key = 'speed', name = 'error_hz', values = [60] }]",
+        ("error_hz", "taken"),
+    ),
+    "a family twice": (
+        "inputs = [{ key = 'speed', values = [60] }]\nsolve.families = ['bending', 'bending']",
+        ("solve", "families", "once"),
+    ),
+    "times that go back": (
+        "inputs = [{ key = 'time', values = [0, 2, 1] }, { key = 'speed', values = [60, 61, 62] }]"
+        "\ndesign.kind = 'zip'",
+        ("time", "1 s comes after 2 s", "sort"),
+    ),
+    "a factor on nothing": (
+        "inputs = [{ key = 'condition.body_angle', factor = true, values = [1, 2] }]",
+        ("body_angle", "no factor changes"),
+    ),
+    "an axis that is no input": (
+        "inputs = [{ key = 'speed', values = [60] }]\nfigure.x = 'sped'",
+        ("figure.x", "sped", "did you mean speed"),
+    ),
     "a scheduler that is not there": (
         "inputs = [{ key = 'speed', values = [60] }]",
         ("tcp://127.0.0.1:9", "scheduler"),
@@ -193,3 +220,43 @@ def test_a_bad_study_gets_one_sentence_and_writes_nothing(tmp_path, name, monkey
 def test_a_case_file_is_no_study(tmp_path):
     run("init", tmp_path)
     refused(run("sweep", tmp_path / "case.toml"), "this is a case file")
+
+
+def test_sobol_chunks_are_entered_anywhere(case):
+    from scipy.stats import qmc
+
+    samples = SobolSamples(7, 5)
+    assert samples._is_known
+    engine = qmc.Sobol(5, scramble=True, rng=7)
+    engine.fast_forward(999_999)
+    assert np.array_equal(samples.rows(999_999, 1_000_100), engine.random(101))
+    start = time.perf_counter()
+    samples.rows(10**9, 10**9 + 10)
+    assert time.perf_counter() - start < 0.1
+
+
+def test_without_the_inside_of_scipy_sobol_chunks_are_the_same():
+    samples = SobolSamples(7, 5)
+    found = samples.rows(1000, 1010)
+    samples._is_known = False
+    assert np.array_equal(samples.rows(1000, 1010), found)
+
+
+@pytest.mark.parametrize("number", [1, 7, 12, 64, 96])
+def test_a_latin_hypercube_is_the_first_half_of_one_twice_as_large(number):
+    column, double = (latin_column(3, 1, n) for n in (number, 2 * number))
+    assert np.array_equal(double[:number], column)
+    for found in (column, double):
+        layers = np.floor(found * len(found)).astype(int)
+        assert sorted(layers.tolist()) == list(range(len(found)))
+    assert not np.any(latin_column(3, 0, number) == column)
+
+
+@pytest.mark.parametrize("kind", ["random", "sobol", "latin_hypercube"])
+def test_a_larger_design_begins_with_the_smaller_one(case, kind):
+    text = SAMPLES.replace("KIND", kind)
+    small = points_of(study(case, text))
+    large = points_of(study(case, text.replace("3000", "6000")))
+    assert large.extends(3000)
+    assert not small.extends(6000)
+    assert np.array_equal(values(large)[:3000], values(small))

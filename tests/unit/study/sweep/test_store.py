@@ -14,6 +14,7 @@ import xarray
 
 import antinode as an
 from antinode.study.sweep import blocks
+from antinode.study.sweep import folder as folder_module
 from antinode.study.sweep.contents import TIMESTAMPS
 from antinode.study.sweep.ledger import ledger_of
 from antinode.study.sweep.lock import locked
@@ -260,3 +261,111 @@ def test_killed_at_random_it_equals_an_undisturbed_run(folder, whole, tmp_path):
 
 def test_the_command_refuses_another_study(folder, whole):
     refused(run("sweep", folder / "history.toml", "-o", whole), "another study", "--overwrite")
+
+
+# --- designs that grow ---
+
+
+@pytest.mark.parametrize("kind", ["sobol", "random", "latin_hypercube"])
+def test_a_grown_design_equals_a_fresh_one(folder, tmp_path, kind):
+    def made(number):
+        design = (f"design.kind={kind}", f"design.number={number}", "run.chunk=16")
+        return an.load_study(folder / "samples.toml", design)
+
+    grown, fresh, told = tmp_path / "grown.zarr", tmp_path / "fresh.zarr", []
+    sweep(made(40), grown)
+    sweep(made(80), grown, progress=lambda done, _: told.append(done))
+    sweep(made(80), fresh)
+    same(grown, fresh)
+    assert told[0] == 32  # two whole chunks were there
+    with pytest.raises(an.InputError, match="never shrinks"):
+        sweep(made(40), grown)
+
+
+def test_a_latin_hypercube_grows_by_doubling(folder, tmp_path):
+    def made(number):
+        design = ("design.kind=latin_hypercube", f"design.number={number}")
+        return an.load_study(folder / "samples.toml", design)
+
+    sweep(made(12), tmp_path / "s.zarr")
+    with pytest.raises(an.InputError, match="grows by doubling: take 24, 48"):
+        sweep(made(18), tmp_path / "s.zarr")
+
+
+def test_growing_goes_on_after_a_kill(folder, tmp_path, monkeypatch):
+    def made(number):
+        design = (f"design.number={number}", "run.chunk=16")
+        return an.load_study(folder / "samples.toml", design)
+
+    path, write, seen = tmp_path / "s.zarr", folder_module.write_lasting, []
+    sweep(made(20), path)
+
+    def killed(store, file, data):
+        seen.append(file)
+        if len(seen) == 4:
+            raise StoppedError
+        write(store, file, data)
+
+    monkeypatch.setattr(folder_module, "write_lasting", killed)
+    with pytest.raises(StoppedError):
+        sweep(made(40), path)
+    monkeypatch.undo()
+    sweep(made(20), path)
+    sweep(made(20), tmp_path / "twenty.zarr")
+    same(path, tmp_path / "twenty.zarr")
+    sweep(made(40), path)
+    sweep(made(40), tmp_path / "forty.zarr")
+    same(path, tmp_path / "forty.zarr")
+
+
+# --- what others do to a store ---
+
+
+@pytest.mark.parametrize("key", ["mode_names", "chunk", "families", "store_format"])
+def test_spoilt_attributes_are_refused_before_anything_is_computed(study, whole, tmp_path, key):
+    path = tmp_path / "s.zarr"
+    shutil.copytree(whole, path)
+    document = json.loads((path / "zarr.json").read_text())
+    document["attributes"][key] = ["longitudinal 1"]
+    (path / "zarr.json").write_text(json.dumps(document))
+    words = "another version" if key == "store_format" else rf"\({key}\) is damaged beyond repair"
+    with pytest.raises(an.InputError, match=words):
+        sweep(study, path)
+    del document["attributes"][key]
+    (path / "zarr.json").write_text(json.dumps(document))
+    with pytest.raises(an.InputError, match="damaged beyond repair"):
+        sweep(study, path)
+    (path / "zarr.json").write_text("{")
+    with pytest.raises(an.InputError, match="damaged beyond repair; add --overwrite"):
+        sweep(study, path)
+    sweep(study, path, overwrite=True)
+    same(path, whole)
+
+
+def test_a_store_that_is_moved_while_it_is_written_says_so(study, whole, tmp_path):
+    path, other = tmp_path / "s.zarr", tmp_path / "moved.zarr"
+
+    def progress(done, _):
+        if done == 48:
+            path.rename(other)
+
+    with pytest.raises(an.ComputationError, match="moved, removed or replaced while the sweep ran"):
+        sweep(study, path, progress=progress)
+    assert not path.exists()
+    sweep(study, other)
+    same(other, whole)
+
+
+def test_a_store_of_other_sources_is_refused(study, whole, monkeypatch):
+    monkeypatch.setattr("antinode.study.sweep.contents.sources_hash", lambda: "other")
+    with pytest.raises(an.InputError, match="another build of antinode"):
+        sweep(study, whole)
+
+
+def test_blocks_of_several_chunks_hold_the_same(study, whole, tmp_path, monkeypatch):
+    monkeypatch.setattr(folder_module, "rows_of_blocks", lambda _: 64)
+    sweep(study, tmp_path / "s.zarr")
+    assert not (tmp_path / "s.zarr" / "reason" / "c" / "2").exists()
+    same(tmp_path / "s.zarr", whole)
+    monkeypatch.undo()
+    sweep(study, tmp_path / "s.zarr")
