@@ -161,6 +161,7 @@ _WORDS = {
     "point_masses": "mass",
     "springs": "spring",
     "joints": "joint",
+    "dashpots": "dashpot",
     "point_forces": "force",
     "roll_angles": "roll angle",
 }

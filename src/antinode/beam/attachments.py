@@ -89,7 +89,28 @@ class Joint:
     torsional: float = 0.0
 
 
-Attachment = PointMass | Spring | Joint
+@dataclass(frozen=True)
+class Dashpot:
+    """Dampers between the beam and the ground; undamped modes know nothing of them.
+
+    Parameters
+    ----------
+    x : float
+        Station [m].
+    translational, axial : float
+        Force over velocity [N s/m], zero or positive.
+    rotational, torsional : float
+        Moment over angular velocity [N m s/rad].
+    """
+
+    x: float
+    translational: float = 0.0
+    rotational: float = 0.0
+    axial: float = 0.0
+    torsional: float = 0.0
+
+
+Attachment = PointMass | Spring | Joint | Dashpot
 
 
 def beside_joints(items: Iterable[Attachment]) -> list[float]:
@@ -111,7 +132,7 @@ def _moves_with_a_side(joint: Joint, item: Attachment) -> bool:
     if isinstance(item, PointMass):
         turns, twists = item.offset != 0.0 or item.rotary_inertia > 0.0, item.polar_inertia > 0.0
         along = item.mass > 0.0
-    elif isinstance(item, Spring):
+    elif isinstance(item, Spring | Dashpot):
         turns, twists, along = item.rotational > 0.0, item.torsional > 0.0, item.axial > 0.0
     else:
         return False
@@ -178,6 +199,12 @@ _UNITS: dict[type, dict[str, str]] = {
         "torsional": "N_m_per_rad",
     },
     Joint: {"rotational": "rad_per_N_m", "axial": "m_per_N", "torsional": "rad_per_N_m"},
+    Dashpot: {
+        "translational": "N_s_per_m",
+        "rotational": "N_m_s_per_rad",
+        "axial": "N_s_per_m",
+        "torsional": "N_m_s_per_rad",
+    },
 }
 
 
@@ -197,7 +224,7 @@ def attachment_dict(item: Attachment) -> dict[str, Any]:
 
 
 _SIGNED = ("x", "offset")
-_NAMES = {PointMass: "point mass", Spring: "spring", Joint: "joint"}
+_NAMES = {PointMass: "point mass", Spring: "spring", Joint: "joint", Dashpot: "dashpot"}
 
 
 def gather(
@@ -207,7 +234,7 @@ def gather(
 
     Parameters
     ----------
-    attachments : sequence of PointMass, Spring or Joint
+    attachments : sequence of PointMass, Spring, Joint or Dashpot
         At breakpoints.
     x : array
         Breakpoints [m].
@@ -225,12 +252,14 @@ def gather(
     for item in attachments:
         at.setdefault(int(np.argmin(np.abs(x - item.x))), []).append(item)
     points = {k: _point(k, at[k], FAMILIES[family], acceleration) for k in sorted(at)}
-    return {k: p for k, p in points.items() if p.loads or p.holds or p.compliance}
+    return {k: p for k, p in points.items() if p.loads or p.damps or p.holds or p.compliance}
 
 
 def _point(k: int, items: list[Attachment], family: Family, acceleration: float) -> Point:
     springs = [item for item in items if isinstance(item, Spring)]
     joints = [item for item in items if isinstance(item, Joint)]
+    dashpots = [item for item in items if isinstance(item, Dashpot)]
+    drag = [sum(getattr(d, name) for d in dashpots) for name in family.springs]
     stiff = [sum(getattr(s, name) for s in springs) for name in family.springs]
     finite = [0.0 if math.isinf(stiffness) else stiffness for stiffness in stiff]
     return Point(
@@ -240,6 +269,8 @@ def _point(k: int, items: list[Attachment], family: Family, acceleration: float)
         rotational_spring=finite[1] if family.rotary else 0.0,
         holds=tuple(i for i, stiffness in enumerate(stiff) if math.isinf(stiffness)),
         compliance=sum(getattr(j, family.joint) for j in joints),
+        dashpot=drag[0],
+        rotational_dashpot=drag[1] if family.rotary else 0.0,
     )
 
 

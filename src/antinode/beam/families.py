@@ -57,6 +57,8 @@ class Family:
         The beam's tables for what the law may have besides its columns.
     freedoms : tuple of int
         Of the displacements, among three translations along x, y, z and three rotations about them.
+    directions : tuple of str
+        Names of forces along the displacements.
     """
 
     law: Law
@@ -71,6 +73,7 @@ class Family:
     rigid: tuple[str, ...]
     quantities: tuple[Quantity, ...]
     freedoms: tuple[int, ...]
+    directions: tuple[str, ...]
     more: tuple[str, ...] = ()
 
     @property
@@ -137,6 +140,7 @@ FAMILIES: Mapping[FamilyName, Family] = {
         ),
         freedoms=(1, 5),
         more=(*TIMOSHENKO, "foundation_stiffness", "added_mass_per_length"),
+        directions=("lateral", "moment"),
     ),
     LONGITUDINAL: Family(
         law=laws.BAR,
@@ -154,6 +158,7 @@ FAMILIES: Mapping[FamilyName, Family] = {
             Quantity("Q_x", "N", "compressive force -EA X'"),
         ),
         freedoms=(0,),
+        directions=("axial",),
     ),
     TORSION: Family(
         law=laws.SHAFT,
@@ -171,6 +176,7 @@ FAMILIES: Mapping[FamilyName, Family] = {
             Quantity("T", "N m", "torque GJ phi'"),
         ),
         freedoms=(3,),
+        directions=("torsional",),
     ),
 }
 

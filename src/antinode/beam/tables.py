@@ -8,11 +8,13 @@ from pydantic import ConfigDict, Field, model_validator
 
 from antinode.inputs.units import Acceleration, Force, Frozen, Length, Mass, Unit
 
-from .attachments import Attachment, Joint, PointMass, Spring
+from .attachments import Attachment, Dashpot, Joint, PointMass, Spring
 from .axial import AxialLoads, PointForce
 
 AxialStiffness = Annotated[float, Unit("N/m"), Field(ge=0)]
 RotationalStiffness = Annotated[float, Unit("N m/rad"), Field(ge=0)]
+LinearDamping = Annotated[float, Unit("N s/m"), Field(ge=0)]
+RotationalDamping = Annotated[float, Unit("N m s/rad"), Field(ge=0)]
 
 
 class PointMassTable(Frozen):
@@ -79,6 +81,28 @@ class JointTable(Frozen):
         return Joint(**vars(self))
 
 
+class DashpotTable(Frozen):
+    """Dampers to the ground: `[[beam.dashpots]]`."""
+
+    x: Length = Field(description="station [m]")
+    translational: LinearDamping = Field(0.0, description="lateral [N s/m]")
+    rotational: RotationalDamping = Field(0.0, description="against the turn [N m s/rad]")
+    axial: LinearDamping = Field(0.0, description="along the axis [N s/m]")
+    torsional: RotationalDamping = Field(0.0, description="about the axis [N m s/rad]")
+
+    @model_validator(mode="after")
+    def _check_any(self) -> Self:
+        if not (self.translational or self.rotational or self.axial or self.torsional):
+            raise ValueError(
+                "all values are 0; give translational, rotational, axial or torsional"
+            )
+        return self
+
+    def attachment(self) -> Dashpot:
+        """Return it as the beam wants it."""
+        return Dashpot(**vars(self))
+
+
 class PointForceTable(Frozen):
     """An axial force at a station."""
 
@@ -114,13 +138,17 @@ class AttachmentTables(Frozen):
     point_masses: tuple[PointMassTable, ...] = Field((), description="rigid masses")
     springs: tuple[SpringTable, ...] = Field((), description="springs and supports to ground")
     joints: tuple[JointTable, ...] = Field((), description="elastic joints in line")
+    dashpots: tuple[DashpotTable, ...] = Field(
+        (), description="dampers to ground: for responses, not for undamped modes"
+    )
     loads: LoadsTable | None = Field(None, description="axial loads")
 
     def attachments(self) -> list[Attachment]:
-        """Return all masses, springs and joints as the beam wants them."""
-        tables: tuple[PointMassTable | SpringTable | JointTable, ...] = (
+        """Return all masses, springs, joints and dashpots as the beam wants them."""
+        tables: tuple[PointMassTable | SpringTable | JointTable | DashpotTable, ...] = (
             *self.point_masses,
             *self.springs,
             *self.joints,
+            *self.dashpots,
         )
         return [table.attachment() for table in tables]

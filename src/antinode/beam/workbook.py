@@ -1,7 +1,7 @@
 """Workbooks (XLSX) as the table `[beam]`: stations, ends, attachments and loads, one sheet each.
 
 The sheet `stations` has the columns of a CSV file. `beam` has keys and values; `point_masses`,
-`springs`, `joints` and `point_forces` have one row each.
+`springs`, `joints`, `dashpots` and `point_forces` have one row each.
 """
 
 from __future__ import annotations
@@ -42,6 +42,13 @@ ATTACHED = {
         "torsional": "N m/rad",
     },
     "joints": {"x": "m", "rotational": "rad/(N m)", "axial": "m/N", "torsional": "rad/(N m)"},
+    "dashpots": {
+        "x": "m",
+        "translational": "N s/m",
+        "rotational": "N m s/rad",
+        "axial": "N s/m",
+        "torsional": "N m s/rad",
+    },
     "point_forces": {"x": "m", "force": "N"},
 }
 """Sheets of attachments and forces: columns with their units."""

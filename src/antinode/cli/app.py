@@ -35,6 +35,7 @@ COMMANDS = {
     "convert": ("convert:convert", 11),
     "app": ("page:page", 12),
     "report": ("report:report", 13),
+    "response": ("response:response", 14),
 }
 """Where each command stands under `cli/commands`, and its place in the help."""
 

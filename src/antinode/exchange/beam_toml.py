@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from antinode.arrays import Array
-from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
+from antinode.beam.attachments import Attachment, Dashpot, Joint, PointMass, Spring
 from antinode.beam.axial import AxialLoads, apply_loads
 from antinode.beam.beam import Beam
 from antinode.beam.families import LONGITUDINAL
@@ -29,6 +29,7 @@ KINDS: dict[type[Attachment], str] = {
     PointMass: "point_masses",
     Spring: "springs",
     Joint: "joints",
+    Dashpot: "dashpots",
 }
 """Tables of what is attached, by their class."""
 

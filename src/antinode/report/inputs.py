@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 from pydantic import BaseModel
 
-from antinode.beam.attachments import Attachment, Joint, PointMass, Spring, name_of
+from antinode.beam.attachments import Attachment, Dashpot, Joint, PointMass, Spring, name_of
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES
 from antinode.beam.file import BeamFile
@@ -257,5 +257,16 @@ _KINDS: tuple[tuple[type, str, tuple[str, ...], tuple[str, ...]], ...] = (
         "Joints in line.",
         ("rotational [rad/(N m)]", "axial [m/N]", "torsional [rad/(N m)]"),
         ("rotational", "axial", "torsional"),
+    ),
+    (
+        Dashpot,
+        "Dashpots to the ground.",
+        (
+            "translational [N s/m]",
+            "rotational [N m s/rad]",
+            "axial [N s/m]",
+            "torsional [N m s/rad]",
+        ),
+        ("translational", "rotational", "axial", "torsional"),
     ),
 )

@@ -44,6 +44,9 @@ class Point:
         f of the joint [rad/(N m)], or [m/N] of a bar.
     own_load : float
         P [N], by which N jumps because of this mass, acting through its centre.
+    dashpot, rotational_dashpot : float
+        To the ground [N s/m, N m s/rad]; at omega they add i omega times themselves to the
+        springs. Undamped modes know nothing of them.
     """
 
     node: int
@@ -55,6 +58,13 @@ class Point:
     holds: tuple[int, ...] = ()
     compliance: float = 0.0
     own_load: float = 0.0
+    dashpot: float = 0.0
+    rotational_dashpot: float = 0.0
+
+    @property
+    def damps(self) -> bool:
+        """Whether a dashpot acts here."""
+        return self.dashpot != 0.0 or self.rotational_dashpot != 0.0
 
     @property
     def loads(self) -> bool:

@@ -21,6 +21,7 @@ _MARKS: dict[str, dict[str, Any]] = {
     "spring": {"marker": "", "y": -0.7, "color": PALETTE[2], "ms": 13, "label": "spring"},
     "support": {"marker": "^", "y": -0.75, "color": INK, "ms": 7, "label": "support"},
     "joint": {"marker": "D", "y": 0.0, "color": PALETTE[3], "ms": 5, "label": "joint"},
+    "dashpot": {"marker": "$\\sqcup$", "y": -0.6, "color": PALETTE[2], "ms": 9, "label": "dashpot"},
 }
 _ENDS = {"pinned": ("^", -0.75), "sliding": ("s", 0.0)}
 _MOST_LINES = 12  # lines through the panels, beyond which they would be a grid

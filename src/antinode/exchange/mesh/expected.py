@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from antinode.beam.attachments import PointMass
+from antinode.beam.attachments import Dashpot, PointMass
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.errors import InputError
@@ -65,6 +65,8 @@ def comparable(
     kept = [name for name in result.families if set(FAMILIES[name].freedoms) <= known]
     if len(kept) < len(result.families):
         notes.append("torsion is left out: the nodes of this mesh do not turn about x")
+    if any(isinstance(item, Dashpot) for item in beam.attachments):
+        notes.append("dashpots are left out: these are undamped modes")
     offset = any(isinstance(item, PointMass) and item.offset for item in beam.attachments)
     if offset and beam.offset_weight and beam.axial_acceleration and analysis != "unloaded":
         beam = replace(beam, offset_weight=False)

@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from antinode.arrays import Array
-from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
+from antinode.beam.attachments import Attachment, Dashpot, Joint, PointMass, Spring
 from antinode.beam.beam import Beam
 from antinode.beam.ends import AxialEnd, Ends
 from antinode.beam.families import LONGITUDINAL, TORSION, tells
@@ -173,6 +173,8 @@ def _along(item: Attachment) -> Attachment:
         return PointMass(item.x, item.polar_inertia)
     if isinstance(item, Spring):
         return Spring(item.x, axial=item.torsional)
+    if isinstance(item, Dashpot):
+        return Dashpot(item.x, axial=item.torsional)
     return Joint(item.x, axial=item.torsional)
 
 

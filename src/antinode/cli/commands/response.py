@@ -1,0 +1,75 @@
+"""`antinode response`: what a beam does under forces and moving supports."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from antinode.cli.options import OUTPUT, Json, assignments, option
+
+ResponseSet = Annotated[
+    tuple[str, ...],
+    assignments(
+        "response file",
+        "--set damping.loss_factor=0.01, --set forces.0.x=2m",
+        "; entries of a list count from 0",
+    ),
+]
+
+
+def response(
+    file: Path,
+    /,
+    *,
+    set_: ResponseSet = (),
+    json: Json = False,
+    output: Annotated[
+        Path | None,
+        option(
+            OUTPUT,
+            "Write the result to a file: .json, .csv (a table), or .uff (dataset 58).",
+            "-o",
+            "--output",
+        ),
+    ] = None,
+    plot: Annotated[Path | None, option(OUTPUT, "Draw the result: .png, .svg or .pdf.")] = None,
+) -> None:
+    """Compute what equipment feels and what a structure must carry.
+
+    The response file names a beam or a case, its damping, forces or moving supports, and what is
+    asked: harmonic amplitudes, random vibration, histories, shock spectra, and the margins of
+    equipment. Exit code 3 if a piece of equipment exceeds what it is qualified for.
+
+    - Example: **antinode response response.toml**
+    - Example: **antinode response response.toml --plot response.png**
+    - Example: **antinode response response.toml --set damping.loss_factor=0.005 --json**
+
+    Parameters
+    ----------
+    file
+        A response file in TOML. 'antinode init --example response' writes one with its beam.
+    """
+    from antinode.response.file import load_response
+    from antinode.response.solve import solve_response
+    from antinode.show.outcome import check_plot, draw, print_json, say_written
+
+    check_plot(plot)
+    if output:
+        from antinode.exchange.responses import check_response_output, write_response
+
+        check_response_output(output)
+    result = solve_response(load_response(file, set_))
+    if output:
+        write_response(output, result)
+        say_written(output)
+    if plot:
+        from antinode.show.response_figures import plot_response
+
+        draw(plot_response(result), plot)
+    if json:
+        print_json(result.to_dict())
+    else:
+        from antinode.show.printing import console
+        from antinode.show.response_table import show_response
+
+        show_response(console(), result)

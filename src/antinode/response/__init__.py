@@ -1,0 +1,1 @@
+"""Responses: what a beam does under forces and moving supports, and what that means for equipment."""

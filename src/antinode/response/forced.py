@@ -1,0 +1,248 @@
+"""One family of modes of a beam on one chain, driven: outputs over drives at any frequency.
+
+    H(omega) = output / drive,   time as exp(+i omega t)
+
+`riccati.forced` gives the states; here they become what was asked for. On a beam in which something
+varies the chain is an approximation: `refined` halves its steps, by the one error rule.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from antinode.arrays import Array, Complex
+from antinode.beam.beam import Beam
+from antinode.beam.families import FamilyName
+from antinode.errors import ComputationError
+from antinode.modes.refinement import layer_length, varying_segments
+from antinode.riccati.chain import Chain
+from antinode.riccati.convergence import extrapolate
+from antinode.riccati.forced import Lanes, Loads, Sides, forced_states, unit_jump
+from antinode.riccati.points import Point
+
+from .damping import Damping
+from .quantities import Base, Drive, Output, family_of
+
+_MOST_SEGMENTS = 50_000
+
+
+class Forced:
+    """A beam's chain of one family with its drives and outputs.
+
+    Parameters
+    ----------
+    beam : Beam
+        With a breakpoint at every station.
+    family : str
+    drives : tuple of Force or Base
+    outputs : tuple of Output
+    damping : Damping
+    refinement : int
+        As `Beam.chain` has it.
+    """
+
+    def __init__(
+        self,
+        beam: Beam,
+        family: FamilyName,
+        drives: tuple[Drive, ...],
+        outputs: tuple[Output, ...],
+        damping: Damping,
+        refinement: int = 1,
+    ) -> None:
+        self.chain, self.damping = beam.chain(family, refinement), damping
+        self.drives, self.outputs, self.origin = drives, outputs, float(beam.x[0])
+        self.columns = damping.columns(self.chain)
+        self.places = np.unique([self.node(o.x) for o in outputs])
+        self.loads = self._loads(family)
+
+    def node(self, x: float) -> int:
+        """Return the node at a station [m]."""
+        return int(np.argmin(np.abs(self.chain.nodes - (x - self.origin))))
+
+    def _loads(self, family: FamilyName) -> Loads:
+        """Return unit loads, a case for each drive; those of other families do nothing."""
+        cases, d = len(self.drives), self.chain.law.size // 2
+        at_nodes: dict[int, Array] = {}
+        along, ground = np.zeros((len(self.chain.length), cases)), np.zeros(cases)
+        for case, drive in enumerate(self.drives):
+            if drive.family != family:
+                continue
+            if isinstance(drive, Base):
+                ground[case] = 1.0
+            elif drive.to is not None:
+                along[self.node(drive.x) : self.node(drive.to), case] = 1.0
+            else:
+                force = at_nodes.setdefault(self.node(drive.x), np.zeros((d, cases)))
+                force[family_of(drive.direction).directions.index(drive.direction), case] = 1.0
+        return Loads(at_nodes, along, ground)
+
+    def at(self, omega: Array) -> Complex:
+        """Return outputs over drives, shape (outputs, drives, k), at frequencies above 0 [rad/s]."""
+        lanes, softer = self.damping.lanes(omega)
+        H = self.on(lanes, lambda z: self._proportioned(z, omega, softer))
+        for row, output in enumerate(self.outputs):
+            H[row] *= (1j * omega) ** output.rate
+        for case, drive in enumerate(self.drives):
+            if isinstance(drive, Base):
+                H[:, case] /= (1j * omega) ** drive.rate
+        return H
+
+    def on(self, lanes: Lanes, damped: Callable[[Complex], Complex] | None = None) -> Complex:
+        """Return components of states, not their rates, over forces and displacements."""
+        sides = forced_states(self.chain, self.columns, lanes, self.loads, self.places)
+        if damped is not None:
+            sides = Sides(*map(damped, sides))
+        H = np.empty((len(self.outputs), len(self.drives), len(lanes.omega2)), dtype=complex)
+        for row, output in enumerate(self.outputs):
+            H[row] = self._output(output, sides, lanes).T
+        return H
+
+    def _proportioned(self, z: Complex, omega: Array, softer: Complex) -> Complex:
+        """Return states with Rayleigh damping, (nodes, k, s, cases), from those of `Damping.lanes`.
+
+        Damping by mass acts on motion relative to the ground, as that of modes does.
+        """
+        rayleigh, d = self.damping.rayleigh, self.chain.law.size // 2
+        if rayleigh is None:
+            return z
+        z = z.copy()
+        moving = np.array([isinstance(drive, Base) for drive in self.drives])
+        ground, drag = self.loads.ground, 1 / (1 - 1j * rayleigh.alpha / omega)
+        z[:, :, 0] -= ground
+        z[:, :, :d] *= np.where(moving, drag[:, None], softer[:, None])[:, None]
+        z[:, :, d:] *= np.where(moving, (drag / softer)[:, None], 1.0)[:, None]
+        z[:, :, 0] += ground
+        return z
+
+    def _output(self, output: Output, sides: Sides, lanes: Lanes) -> Complex:
+        """Return an output of every case, shape (k, cases)."""
+        node = self.node(output.x)
+        place = int(np.searchsorted(self.places, node))
+        if output.component < 0:
+            return self._reaction(-1 - output.component, node, place, sides, lanes)
+        left = node == len(self.chain.length) or (output.side == "left" and node > 0)
+        z = (sides.left if left else sides.right)[place][:, output.component]
+        if output.relative and output.moves:
+            z = z - self.loads.ground
+        return np.asarray(z)
+
+    def _reaction(
+        self, freedom: int, node: int, place: int, sides: Sides, lanes: Lanes
+    ) -> Complex:
+        """Return what the ground does to the beam along a displacement of a node, (k, cases)."""
+        law, last = self.chain.law, len(self.chain.length)
+        left, right = sides.left[place], sides.right[place]
+        jump = right - left
+        point = next((p for p in self.chain.points if p.node == node), Point(node))
+        free = replace(
+            point, spring=0.0, rotational_spring=0.0, dashpot=0.0, rotational_dashpot=0.0
+        )
+        jump = jump - (law.load(free, lanes.omega2) - np.eye(law.size)) @ left
+        if node in self.loads.at_nodes:
+            jumps = np.array([unit_jump(law, i) for i in range(law.size // 2)])
+            jump = jump - jumps.T @ self.loads.at_nodes[node]
+        jump = jump + (left if node == 0 else 0) - (right if node == last else 0)
+        unit = unit_jump(law, freedom)
+        force = int(np.flatnonzero(unit)[0])
+        return np.asarray(jump[:, force] / unit[force])
+
+
+def refined(
+    beam: Beam,
+    family: FamilyName,
+    compute: Callable[[int], Array | Complex],
+    first: int,
+    tolerance: float,
+) -> tuple[Complex, Array]:
+    """Return numbers of a beam, and how wrong they may be, from chains whose steps are halved.
+
+    Parameters
+    ----------
+    compute : callable
+        Numbers by the refinement of the chain, any shape.
+    first : int
+        Refinement to start from.
+    tolerance : float
+        Of the largest number of the last axis.
+
+    Returns
+    -------
+    numbers, error : array
+        The error is of the representation alone, absolute, the largest along the last axis;
+        0 where nothing varies.
+
+    Raises
+    ------
+    ComputationError
+        If no chain of reasonable length meets the tolerance.
+    """
+
+    def on(levels: dict[FamilyName, int]) -> Array | Complex:
+        return compute(levels[family])
+
+    return refined_all(beam, {family: first}, on, tolerance)
+
+
+def refined_all(
+    beam: Beam,
+    first: dict[FamilyName, int],
+    compute: Callable[[dict[FamilyName, int]], Array | Complex],
+    tolerance: float,
+) -> tuple[Complex, Array]:
+    """Return numbers that several families make together, as `refined` does.
+
+    Parameters
+    ----------
+    first : dict
+        Refinement to start from, by family.
+    compute : callable
+        Numbers by the refinements.
+    """
+    refinement = dict(first)
+    varying = [family for family in first if np.any(beam.varies(family))]
+    if not varying:
+        values = np.asarray(compute(refinement))
+        return values, np.zeros(values.shape[:-1])
+    levels: list[Complex] = []
+    while True:
+        chains = [beam.chain(family, refinement[family]) for family in varying]
+        levels.append(np.asarray(compute(refinement)))
+        if len(levels) > 2:
+            layer = max(layer_length(c, varying_segments(beam, c)) for c in chains)
+            better, error = _judged(levels[-4:], layer)
+            size = np.max(np.abs(better), axis=-1)
+            if np.all(error <= tolerance * size):
+                return better, error
+        longest = max(len(chain.length) for chain in chains)
+        if 2 * longest > _MOST_SEGMENTS:
+            raise ComputationError(
+                f"{longest} segments do not reach the tolerance {tolerance:g} of the response; "
+                "give a larger tolerance, a lower frequency, or more damping"
+            )
+        refinement = {f: r * (2 if f in varying else 1) for f, r in refinement.items()}
+
+
+def _judged(levels: list[Complex], layer: float) -> tuple[Complex, Array]:
+    """Extrapolate by `riccati.convergence`, number by number; the largest error counts."""
+    shape = levels[-1].shape
+    rows = np.array([level.reshape(-1, shape[-1]) for level in levels])
+    better = np.empty(rows.shape[1:], dtype=rows.dtype)
+    error = np.empty(len(better))
+    for k in range(len(better)):
+        errors = np.empty(shape[-1])
+        extrapolate(rows[:, k], len(rows) - 1, 1e-13, layer, better[k], errors)
+        error[k] = np.max(errors)
+    return better.reshape(shape), error.reshape(shape[:-1])
+
+
+def with_stations(beam: Beam, places: list[float]) -> Beam:
+    """Return a beam with breakpoints at stations [m]."""
+    from antinode.beam.attachments import on_beam
+
+    return beam.with_breakpoints([on_beam(x, beam.x) for x in places])
+
+

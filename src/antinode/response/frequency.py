@@ -1,0 +1,267 @@
+"""Frequency responses: outputs over drives, exact for the chain, with an error beside each.
+
+    response = frequency_response(beam, [10, 20, 30], [Force(6.0)], [Output(1.2, "acceleration")])
+
+No mode is left out: every frequency is one pass through the chain (`riccati.forced`). The stated
+error holds for all frequencies of an output: that of representing what varies by uniform segments
+(`riccati.convergence`), and that of rounding, which is how far a change of the frequency by some
+units in the last place moves the response.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.arguments import ByValue, numbers, within
+from antinode.arrays import Array, Complex
+from antinode.beam.beam import Beam
+from antinode.beam.families import FamilyName
+from antinode.beam.limits import out_of_range_is_an_error
+from antinode.errors import InputError
+from antinode.modes.solve import HasBeam
+
+from .damping import UNDAMPED, Damping
+from .forced import Forced, refined, with_stations
+from .modal import modes_below
+from .quantities import Drive, Output, check_places, stations_of
+
+ROUNDING = 5e-14
+"""Relative change of a frequency that moves a response at least as far as rounding does."""
+_STEP = 1e-7  # relative step by which that change is measured
+_SAMPLES = 24  # frequencies at which it is measured: where the response is large or steep
+_PER_REFINEMENT = 8  # modes that the coarsest steps are meant for
+
+
+@dataclass(frozen=True, eq=False)
+class FrequencyResponse(ByValue):
+    """Outputs over drives at some frequencies.
+
+    Attributes
+    ----------
+    beam : Beam
+    frequency_hz : array, shape (k,)
+        [Hz].
+    drives : tuple of Force or Base
+    outputs : tuple of Output
+    values : array, shape (outputs, drives, k)
+        Complex, time as exp(+i omega t): unit of the output over unit of the drive.
+    error : array, shape (outputs, drives)
+        Largest distance of any of the values from the beam's own, in the same unit.
+    segments : dict
+        Uniform segments that represent the beam at last, by family.
+    """
+
+    beam: Beam
+    frequency_hz: Array
+    drives: tuple[Drive, ...]
+    outputs: tuple[Output, ...]
+    values: Complex = field(repr=False)
+    error: Array
+    segments: dict[str, int]
+
+    def __str__(self) -> str:
+        head = (
+            f"{self.beam.name}: {len(self.frequency_hz)} frequencies, "
+            f"{self.frequency_hz[0]:g} to {self.frequency_hz[-1]:g} Hz"
+        )
+        lines = []
+        for row, output in enumerate(self.outputs):
+            for case, drive in enumerate(self.drives):
+                most = float(np.max(np.abs(self.values[row, case])))
+                unit = f"{output.unit} per {drive.unit}"
+                lines.append(f"  {output.name} by {drive.name}: at most {most:.5g} {unit}")
+        return "\n".join([head, *lines])
+
+
+class Model:
+    """A beam with drives and outputs, ready to be asked at any frequency.
+
+    Parameters
+    ----------
+    beam : Beam
+    drives : sequence of Force or Base
+    outputs : sequence of Output
+    damping : Damping
+    highest_hz : float
+        No frequency will be higher [Hz].
+    """
+
+    def __init__(
+        self,
+        beam: Beam,
+        drives: Sequence[Drive],
+        outputs: Sequence[Output],
+        damping: Damping,
+        highest_hz: float,
+    ) -> None:
+        self.drives, self.outputs, self.damping = tuple(drives), tuple(outputs), damping
+        if not self.drives or not self.outputs:
+            raise InputError("a response needs at least one force, or [base], and one output")
+        check_places(beam, self.drives, self.outputs)
+        self.beam = with_stations(beam, stations_of(self.drives, self.outputs))
+        driven = {drive.family for drive in self.drives}
+        self.families: list[FamilyName] = [
+            f for f in self.beam.families if f in driven and any(o.family == f for o in outputs)
+        ]
+        self.highest_hz = highest_hz
+        self._chains: dict[tuple[FamilyName, int], Forced] = {}
+        self._at: Callable[[Array], Complex] | None = None
+
+    def first(self, family: FamilyName) -> int:
+        """Return the refinement to start from."""
+        return max(1, modes_below(self.beam, family, self.highest_hz) // _PER_REFINEMENT)
+
+    def rows(self, family: FamilyName) -> list[int]:
+        """Return which outputs are of a family."""
+        return [row for row, output in enumerate(self.outputs) if output.family == family]
+
+    def forced(self, family: FamilyName, refinement: int) -> Forced:
+        """Return one family's driven chain."""
+        key = family, refinement
+        if key not in self._chains:
+            outputs = tuple(self.outputs[row] for row in self.rows(family))
+            self._chains[key] = Forced(
+                self.beam, family, self.drives, outputs, self.damping, refinement
+            )
+        return self._chains[key]
+
+    def segments(self) -> dict[str, int]:
+        """Return the number of segments of the finest chain of each family."""
+        return {
+            family: max(
+                len(forced.chain.length)
+                for (name, _), forced in self._chains.items()
+                if name == family
+            )
+            for family in self.families
+        }
+
+    def response(self, frequency_hz: Array, tolerance: float) -> tuple[Complex, Array]:
+        """Return outputs over drives (outputs, drives, k), and errors (outputs, drives)."""
+        omega = 2 * np.pi * frequency_hz
+        H = np.zeros((len(self.outputs), len(self.drives), len(omega)), dtype=complex)
+        error = np.zeros(H.shape[:2])
+        for family in self.families:
+            rows = self.rows(family)
+
+            def compute(refinement: int, family: FamilyName = family) -> Complex:
+                return self.forced(family, refinement).at(omega)
+
+            H[rows], error[rows] = refined(
+                self.beam, family, compute, self.first(family), tolerance
+            )
+            finest = max(r for name, r in self._chains if name == family)
+            error[rows] += rounding(self.forced(family, finest), omega, H[rows])
+        return H, error
+
+
+    def use(self, at: Callable[[Array], Complex]) -> None:
+        """Take outputs over drives from a function of frequencies [Hz] henceforth."""
+        self._at = at
+
+    def on(self, levels: dict[FamilyName, int], frequency_hz: Array) -> Complex:
+        """Return outputs over drives, (outputs, drives, k), on chains of given refinements."""
+        if self._at is not None:
+            return self._at(frequency_hz)
+        omega = 2 * np.pi * frequency_hz
+        H = np.zeros((len(self.outputs), len(self.drives), len(omega)), dtype=complex)
+        for family, refinement in levels.items():
+            H[self.rows(family)] = self.forced(family, refinement).at(omega)
+        return H
+
+    def quick(self, frequency_hz: Array) -> Complex:
+        """Return outputs over drives, (outputs, drives, k), by the chains that `response` needed.
+
+        Extrapolated from the last two levels where something varies.
+        """
+        if self._at is not None:
+            return self._at(frequency_hz)
+        omega = 2 * np.pi * frequency_hz
+        H = np.zeros((len(self.outputs), len(self.drives), len(omega)), dtype=complex)
+        for family in self.families:
+            levels = sorted(r for name, r in self._chains if name == family)
+            fine = self.forced(family, levels[-1]).at(omega)
+            if len(levels) > 1:
+                fine = fine + (fine - self.forced(family, levels[-2]).at(omega)) / 15
+            H[self.rows(family)] = fine
+        return H
+
+
+def rounding(forced: Forced, omega: Array, H: Complex) -> Array:
+    """Return how wrong rounding may make responses (outputs, drives, k): (outputs, drives)."""
+    size = np.abs(H).reshape(-1, len(omega))
+    steep = np.abs(np.diff(H.reshape(-1, len(omega)), axis=-1, append=H.reshape(-1, len(omega))[:, -1:]))
+    steep = np.maximum(steep, np.roll(steep, 1, axis=-1))
+    peak, steepest = (np.argsort(v / np.maximum(np.max(v, axis=-1, keepdims=True), 1e-300), axis=-1)
+        for v in (size, steep))
+    worst = np.unique(np.concatenate([peak[:, -2:].ravel(), steepest[:, -2:].ravel()]))
+    worst = worst[:: max(1, len(worst) // _SAMPLES)]
+    moved = np.abs(forced.at(omega[worst] * (1 + _STEP)) - H[:, :, worst]) / _STEP
+    return np.asarray(ROUNDING * (np.max(moved, axis=-1) + np.max(np.abs(H), axis=-1)))
+
+
+@out_of_range_is_an_error()
+def frequency_response(
+    problem: Beam | HasBeam,
+    frequency_hz: npt.ArrayLike,
+    drives: Sequence[Drive],
+    outputs: Sequence[Output],
+    *,
+    damping: Damping = UNDAMPED,
+    tolerance: float = 1e-6,
+) -> FrequencyResponse:
+    """Compute frequency responses of a beam, without modal truncation.
+
+    Parameters
+    ----------
+    problem : Beam or case
+        A beam, or anything with a method ``beam()``.
+    frequency_hz : array_like, shape (k,)
+        Above 0 [Hz].
+    drives : sequence of Force or Base
+        A unit of each, one after the other.
+    outputs : sequence of Output
+    damping : Damping
+        Not by ratios of modes: `modal_response` takes those.
+    tolerance : float
+        Error of an output by what varies inside segments, relative to its largest value.
+
+    Returns
+    -------
+    FrequencyResponse
+
+    Raises
+    ------
+    InputError
+        If a station is off the beam, the beam lacks a column, or an argument is out of range.
+    """
+    frequency = checked_frequencies(frequency_hz)
+    tolerance = within("tolerance", tolerance, 1e-12, 0.1, " (relative)")
+    if damping.modal:
+        raise InputError(
+            "ratios of modes are no property of a beam: use modal_response, or a loss factor"
+        )
+    beam = problem if isinstance(problem, Beam) else problem.beam()
+    model = Model(beam, drives, outputs, damping, float(np.max(frequency)))
+    H, error = model.response(frequency, tolerance)
+    return FrequencyResponse(
+        beam, frequency, model.drives, model.outputs, H, error, model.segments()
+    )
+
+
+def checked_frequencies(frequency_hz: npt.ArrayLike) -> Array:
+    """Return frequencies as an array, or raise InputError unless all are above 0 [Hz]."""
+    frequency = np.atleast_1d(numbers("frequency_hz", frequency_hz))
+    bad = ~(np.isfinite(frequency) & (frequency > 0))
+    if frequency.ndim != 1 or not len(frequency):
+        raise InputError("frequency_hz must be a list of frequencies [Hz]")
+    if np.any(bad):
+        raise InputError(
+            f"a frequency is {frequency[bad][0]:g} Hz; it must be finite and above 0 (statics are "
+            "the limit: give a low frequency)"
+        )
+    return frequency

@@ -1,0 +1,184 @@
+"""Harmonic responses: amplitudes of outputs under forces of given amplitudes, with their peaks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from antinode.arguments import ByValue
+from antinode.arrays import Array, Complex
+from antinode.beam.beam import Beam
+from antinode.beam.limits import out_of_range_is_an_error
+
+from .damping import Damping
+from .file import Problem
+from .frequency import Model
+from .modal import Basis, basis, modes_below
+from .modal_sum import modal_response
+from .numbers import plain
+from .peaks import Peak, find_peaks, with_resonances
+from .quantities import Drive, Output
+
+_ABOVE = 1.2  # of the highest frequency up to which resonances are looked up
+
+
+@dataclass(frozen=True, eq=False)
+class HarmonicResult(ByValue):
+    """Complex amplitudes of outputs over frequency.
+
+    Attributes
+    ----------
+    title : str
+    frequency_hz : array, shape (k,)
+    outputs : tuple of Output
+    values : array, shape (outputs, k)
+        Complex amplitudes, time as exp(+i omega t), SI.
+    error : array, shape (outputs,)
+        Largest distance of any value from the beam's own, SI.
+    shares : array, shape (outputs, drives, k)
+        What each drive makes of it, complex.
+    drive_names : tuple of str
+    peaks : tuple of tuple of Peak
+        Of each output, inside the band.
+    modes : tuple of Basis
+        What resonates, by family.
+    damping : Damping
+    warnings : tuple of str
+    """
+
+    title: str
+    frequency_hz: Array
+    outputs: tuple[Output, ...]
+    values: Complex = field(repr=False)
+    error: Array
+    shares: Complex = field(repr=False)
+    drive_names: tuple[str, ...]
+    peaks: tuple[tuple[Peak, ...], ...]
+    modes: tuple[Basis, ...] = field(repr=False)
+    damping: Damping
+    warnings: tuple[str, ...]
+
+    kind = "harmonic"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain numbers for JSON."""
+        rows = []
+        for row, output in enumerate(self.outputs):
+            rows.append(
+                {
+                    **output_keys(output),
+                    "real": plain(self.values[row].real),
+                    "imag": plain(self.values[row].imag),
+                    "error": plain(self.error[row]),
+                    "peaks": [peak.to_dict() for peak in self.peaks[row]],
+                }
+            )
+        return {
+            "schema_version": 1,
+            "kind": self.kind,
+            "name": self.title,
+            "damping": self.damping.describe(),
+            "frequency_hz": self.frequency_hz.tolist(),
+            "outputs": rows,
+            "warnings": list(self.warnings),
+        }
+
+
+    def columns(self) -> list[tuple[str, Array]]:
+        """Return a table: frequency, then real and imaginary part of each output."""
+        table = [("frequency [Hz]", self.frequency_hz)]
+        for output, values in zip(self.outputs, self.values, strict=True):
+            table.append((f"{output.name}, real [{output.unit}]", values.real))
+            table.append((f"{output.name}, imag [{output.unit}]", values.imag))
+        return table
+
+
+def output_keys(output: Output) -> dict[str, Any]:
+    """Return what an output is, for JSON."""
+    return {
+        "x": output.x,
+        "quantity": output.quantity,
+        "direction": output.direction,
+        "side": output.side,
+        "relative": output.relative,
+        "unit": output.unit,
+    }
+
+
+def bases(
+    beam: Beam,
+    drives: tuple[Drive, ...],
+    outputs: tuple[Output, ...],
+    damping: Damping,
+    highest_hz: float,
+) -> tuple[Basis, ...]:
+    """Return all modes up to a frequency, as a basis, of each family that is driven."""
+    families = dict.fromkeys(drive.family for drive in drives)
+    return tuple(
+        basis(beam, f, modes_below(beam, f, _ABOVE * highest_hz) + 1, drives, outputs, damping)
+        for f in families
+    )
+
+
+def resonance_warnings(modes: tuple[Basis, ...], low: float, high: float) -> list[str]:
+    """Say which modes in a band have no damping, and what their response then means."""
+    names = [
+        name
+        for own in modes
+        for name, f, ratio in zip(own.names, own.frequency_hz, own.ratio, strict=True)
+        if low <= f <= high and ratio == 0.0
+    ]
+    if not names:
+        return []
+    return [
+        f"no damping: at {', '.join(names[:6])} the response grows without bound, and only how near "
+        "a frequency comes to the resonance limits it; give [damping] loss_factor"
+    ]
+
+
+@out_of_range_is_an_error()
+def solve_harmonic(problem: Problem) -> HarmonicResult:
+    """Compute the response that a file asks for.
+
+    Raises
+    ------
+    InputError
+        If a station is off the beam, or the beam lacks what is asked for.
+    """
+    file, damping = problem.file, problem.damping
+    assert file.frequency is not None
+    frequency, amplitude = file.frequency.hertz(), file.amplitudes()
+    drives, outputs = file.drives, file.outputs
+    model = Model(problem.beam, drives, outputs, damping, float(frequency[-1]))
+    modes = bases(model.beam, drives, outputs, damping, float(frequency[-1]))
+    if damping.modal:
+        summed = modal_response(model, frequency, file.response.modes, file.response.tolerance)
+        H, error, at = summed.values, summed.error, summed.at
+    else:
+        H, error = model.response(frequency, file.response.tolerance)
+        at = model.quick
+    shares = H * amplitude[:, None]
+    resonance = np.concatenate([own.frequency_hz for own in modes])
+    ratio = np.concatenate([own.ratio for own in modes])
+    grid = with_resonances(frequency, resonance, ratio) if len(frequency) > 1 else frequency
+
+    def sizes(places: Array) -> Array:
+        return np.abs(np.einsum("odk,d->ok", at(places), amplitude))
+
+    peaks = find_peaks(sizes, grid, sizes(grid)) if len(grid) > 2 else [[] for _ in outputs]
+    warnings = resonance_warnings(modes, float(frequency[0]), float(frequency[-1]))
+    return HarmonicResult(
+        problem.title,
+        frequency,
+        outputs,
+        shares.sum(axis=1),
+        error @ np.abs(amplitude),
+        shares,
+        file.drive_names,
+        tuple(map(tuple, peaks)),
+        modes,
+        damping,
+        tuple(warnings),
+    )

@@ -1,0 +1,241 @@
+"""Modes as a basis of responses: what they weigh, lose, and show of forces and outputs.
+
+With modal coordinates q of unit-mass modes and the motion of the ground u_g,
+
+    q'' + C q' + omega_n^2 q = b f,   y = c q + (static rest) f,   C = 2 zeta_n omega_n
+
+In relative motion the ground drives by inertia: ``b = -int m phi``. Dashpots couple the modes:
+``C_jk += sum c phi_j phi_k``. A loss factor eta becomes, mode by mode, the viscous ratio
+``zeta_n = eta/2 * (strain energy of the beam) / (energy of all stiffness)``, which loses the same
+at resonance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.beam.beam import Beam
+from antinode.beam.families import FamilyName
+from antinode.errors import InputError
+from antinode.modes.result import ModalResult
+from antinode.modes.solve import solve_one
+from antinode.riccati.chain import Chain, count_below, largest_wave_number
+from antinode.riccati.points import Point
+from antinode.riccati.shapes import gauss_rule, integrate_squares, propagate
+
+from .damping import Damping
+from .quantities import Base, Drive, Output, family_of
+
+MOST_MODES = 500
+
+
+@dataclass(frozen=True)
+class Basis:
+    """Modes of one family, scaled to unit modal mass.
+
+    Attributes
+    ----------
+    names : tuple of str
+    omega2 : array, shape (n,)
+        [rad^2/s^2].
+    damping : array, shape (n, n)
+        C [1/s]; diagonal but for dashpots.
+    drives : array, shape (n, drives)
+        b: work of each unit drive on each mode; of the ground's acceleration, in relative motion.
+    outputs : array, shape (outputs, n)
+        c: each output's component of the state of each mode, relative to the ground.
+    """
+
+    names: tuple[str, ...]
+    omega2: Array
+    damping: Array
+    drives: Array
+    outputs: Array
+
+    @property
+    def frequency_hz(self) -> Array:
+        """Natural frequencies [Hz]; 0 for modes that do not vibrate."""
+        return np.asarray(np.sqrt(np.maximum(self.omega2, 0.0)) / (2 * np.pi))
+
+    @property
+    def ratio(self) -> Array:
+        """Viscous damping ratios; 0 for modes that do not vibrate."""
+        omega = np.sqrt(np.maximum(self.omega2, 0.0))
+        safe = np.where(omega > 0, omega, 1.0)
+        return np.asarray(np.where(omega > 0, np.diag(self.damping) / (2 * safe), 0.0))
+
+
+def modes_below(beam: Beam, family: FamilyName, frequency_hz: float) -> int:
+    """Return how many modes lie below a frequency, about: by the count of a coarse chain."""
+    omega2 = (2 * np.pi * frequency_hz) ** 2
+    chain = beam.chain(family)
+    if np.any(beam.varies(family)):
+        waves = float(np.sum(chain.law.oscillation(chain, omega2) * chain.length)) / np.pi
+        chain = beam.chain(family, max(1, int(waves / 4)))
+    return int(count_below(chain, [omega2])[0])
+
+
+def solved_modes(beam: Beam, family: FamilyName, modes: int) -> ModalResult:
+    """Return modes of unit modal mass.
+
+    Raises
+    ------
+    InputError
+        If there are more than `MOST_MODES`.
+    """
+    if modes > MOST_MODES:
+        raise InputError(
+            f"{modes} modes lie in the range of frequencies; at most {MOST_MODES} are computed: "
+            "lower its end"
+        )
+    return solve_one(
+        beam, max(modes, 1), families=[family], normalisation="mass", tolerance=1e-8
+    )
+
+
+def basis(
+    beam: Beam,
+    family: FamilyName,
+    modes: int,
+    drives: tuple[Drive, ...],
+    outputs: tuple[Output, ...],
+    damping: Damping,
+) -> Basis:
+    """Return the modes of one family as a basis; drives and outputs of other families are zero.
+
+    Parameters
+    ----------
+    beam : Beam
+        With a breakpoint at every station.
+    modes : int
+        Elastic modes, besides rigid ones.
+    """
+    result = solved_modes(beam, family, modes)
+    found = result.family(family)
+    solution = result.solutions[family]
+    chain, omega2, states = solution.chain, solution.omega2, solution.states
+    shown = _Shown(chain, omega2, states, float(beam.x[0]))
+    omega2 = np.array([mode.omega2 for mode in found])
+    b = np.array([shown.driven(d) if d.family == family else 0 * omega2 for d in drives])
+    c = np.array([shown.seen(o) if o.family == family else 0 * omega2 for o in outputs])
+    C = shown.dashpots() + np.diag(_own_damping(shown, omega2, found, damping))
+    return Basis(
+        tuple(mode.name for mode in found),
+        omega2,
+        C,
+        b.reshape(len(drives), len(found)).T,
+        c.reshape(len(outputs), len(found)),
+    )
+
+
+def _own_damping(shown: _Shown, omega2: Array, found: tuple[object, ...], given: Damping) -> Array:
+    """Return 2 zeta_n omega_n of every mode [1/s], without dashpots."""
+    omega = np.sqrt(np.maximum(omega2, 0.0))
+    if given.rayleigh is not None:
+        return np.asarray(given.rayleigh.alpha + given.rayleigh.beta * np.maximum(omega2, 0.0))
+    if given.modal:
+        numbers = [getattr(mode, "number", 0) for mode in found]
+        ratios = np.array([given.ratio(number) if number else 0.0 for number in numbers])
+        return np.asarray(2 * ratios * omega)
+    share = shown.strain(given.loss(shown.chain)) / np.where(omega2 > 0, omega2, 1.0)
+    return np.asarray(np.where(omega2 > 0, share * omega, 0.0))
+
+
+class _Shown:
+    """What modes show at stations, and what forces do to them."""
+
+    def __init__(self, chain: Chain, omega2: Array, states: Array, origin: float) -> None:
+        self.chain, self.omega2, self.states, self.origin = chain, omega2, states, origin
+
+    def node(self, x: float) -> int:
+        return int(np.argmin(np.abs(self.chain.nodes - (x - self.origin))))
+
+    def left(self, node: int) -> Array:
+        """Return the states on the left side of a node, shape (n, s)."""
+        before = np.array([node - 1])
+        length = self.chain.length[before]
+        return propagate(self.chain, self.states[before], self.omega2, length, before)[0]
+
+    def before_joint(self, node: int) -> Array:
+        """Return the states that masses, springs and forces at a node feel: left of its joint."""
+        return self.states[0] if node == 0 else self.left(node)
+
+    def seen(self, output: Output) -> Array:
+        """Return an output's component of all modes."""
+        node, last = self.node(output.x), len(self.chain.length)
+        if output.component < 0:
+            return self._reaction(-1 - output.component, node)
+        on_left = node == last or (output.side == "left" and node > 0)
+        return np.asarray((self.left(node) if on_left else self.states[node])[:, output.component])
+
+    def _reaction(self, freedom: int, node: int) -> Array:
+        """Return what the ground does to the beam at a node, by the jump there and at an end."""
+        law, last = self.chain.law, len(self.chain.length)
+        point = next((p for p in self.chain.points if p.node == node), Point(node))
+        free = replace(point, spring=0.0, rotational_spring=0.0)
+        zero = np.zeros_like(self.states[0])
+        left = self.left(node) if node else zero
+        right = self.states[node] if node < last else zero
+        felt = left if node else right
+        inertia = np.einsum(
+            "nij,nj->ni", law.load(free, self.omega2) - np.eye(law.size), felt
+        )
+        one = Point(0, mass=1.0) if freedom == 0 else Point(0, inertia=1.0)
+        unit = (law.load(one, np.ones(1))[0] - np.eye(law.size))[:, freedom]
+        force = int(np.flatnonzero(unit)[0])
+        return np.asarray((right - left - inertia)[:, force] / unit[force])
+
+    def driven(self, drive: Drive) -> Array:
+        """Return the work of a unit drive on every mode."""
+        if isinstance(drive, Base):
+            return -self._moved()
+        freedom = family_of(drive.direction).directions.index(drive.direction)
+        node = self.node(drive.x)
+        if drive.to is None:
+            return np.asarray(self.before_joint(node)[:, freedom])
+        some = slice(node, self.node(drive.to))
+        return np.asarray(np.sum(self._integrals()[some], axis=0))
+
+    def _integrals(self) -> Array:
+        """Return the integrals of the displacement over all segments, shape (segments, n)."""
+        chain, total = self.chain, np.zeros((len(self.chain.length), len(self.omega2)))
+        phase = largest_wave_number(chain, float(np.max(np.abs(self.omega2)))) * chain.length
+        for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
+            z = propagate(chain, self.states[:-1], self.omega2, point * chain.length)
+            total += weight * chain.length[:, None] * z[..., 0]
+        return total
+
+    def _moved(self) -> Array:
+        """Return int m phi: the inertia of a unit acceleration of all places alike."""
+        law, chain = self.chain.law, self.chain
+        total = chain.mass @ self._integrals()
+        one = np.eye(law.size)[:1]
+        for point in chain.points:
+            z = self.before_joint(point.node)
+            free = replace(point, compliance=0.0)
+            for row, sign in ((z + one, 0.25), (z - one, -0.25)):
+                total = total + sign * law.point_energies(free, row, False)[0]
+        return np.asarray(total)
+
+    def strain(self, loss: Array) -> Array:
+        """Return the strain energy of each mode weighted by loss factors, times two [1/s^2]."""
+        squares = integrate_squares(self.chain, self.states, self.omega2)
+        columns = self.chain.columns
+        shear = np.broadcast_to(columns.get("shear", np.zeros(())), loss.shape)
+        return np.asarray(
+            (loss / columns["stiffness"]) @ squares.moment + (loss * shear) @ squares.shear
+        )
+
+    def dashpots(self) -> Array:
+        """Return the damping by dashpots, shape (n, n)."""
+        C = np.zeros((len(self.omega2), len(self.omega2)))
+        for point in self.chain.points:
+            if point.damps:
+                z = self.before_joint(point.node)
+                C += point.dashpot * np.outer(z[:, 0], z[:, 0])
+                if self.chain.law.size > 2:
+                    C += point.rotational_dashpot * np.outer(z[:, 1], z[:, 1])
+        return C

@@ -1,0 +1,215 @@
+"""Responses as sums of modes, with a static rest for those left out, and how wrong that is.
+
+    H(omega) = sum c_n b_n / (omega_n^2 - omega^2 + 2 i zeta_n omega_n omega) + rest
+
+The rest is what the modes left out do at rest: at ``omega^2 = -sigma``, where nothing resonates and
+free beams too have an answer, the undamped chain tells the whole and the sum its part. Stated as
+error is how far half of the modes are from all of them, which is more than what all still lack.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from antinode.arrays import Array, Complex
+from antinode.beam.families import FamilyName
+from antinode.errors import ComputationError
+from antinode.riccati.forced import Lanes
+
+from .damping import UNDAMPED
+from .forced import Forced, refined
+from .frequency import Model
+from .modal import MOST_MODES, Basis, basis, modes_below
+from .quantities import Base, Drive, Output
+
+_MORE = 2.0  # modes beyond the highest frequency, in frequencies
+_FEWEST = 12
+
+
+@dataclass(frozen=True)
+class ModalSum:
+    """A sum of modes with its static rest.
+
+    Attributes
+    ----------
+    values : array, shape (outputs, drives, k)
+        Outputs over drives, complex.
+    error : array, shape (outputs, drives)
+        Of the modes left out and of the static rest.
+    modes : int
+        How many were summed, in all families.
+    at : callable
+        The same at other frequencies [Hz].
+    """
+
+    values: Complex
+    error: Array
+    modes: int
+    at: Callable[[Array], Complex]
+
+
+def modal_response(
+    model: Model, frequency_hz: Array, modes: int | None, tolerance: float
+) -> ModalSum:
+    """Return the response of a model by modes of given damping.
+
+    Parameters
+    ----------
+    modes : int, optional
+        Of each family; by default as many as the tolerance takes.
+
+    Raises
+    ------
+    ComputationError
+        If no number of modes meets the tolerance, and none is given.
+    """
+    parts, count, bounds = [], 0, np.zeros((len(model.outputs), len(model.drives)))
+    for family in model.families:
+        number = modes or max(_FEWEST, modes_below(model.beam, family, _MORE * model.highest_hz))
+        while True:
+            part = Summed(model, family, number)
+            error = part.error(frequency_hz)
+            size = np.max(np.abs(part.at(frequency_hz)), axis=-1)
+            if modes or np.all(error <= max(tolerance, 1e-9) * size + 1e-300):
+                break
+            if 2 * number > MOST_MODES:
+                if np.all(error <= 0.01 * size + 1e-300):
+                    break
+                raise ComputationError(
+                    f"{number} modes do not reach 1 % of the response; give a loss factor in place "
+                    "of ratios of modes: then no mode is left out"
+                )
+            number *= 2
+        parts.append(part)
+        bounds += error
+        count += len(part.basis.omega2)
+
+    def at(places: Array) -> Complex:
+        return np.asarray(sum(part.at(places) for part in parts))
+
+    return ModalSum(at(frequency_hz), bounds, count, at)
+
+
+class Summed:
+    """The modes of one family, summed."""
+
+    def __init__(self, model: Model, family: FamilyName, modes: int) -> None:
+        self.model, self.family = model, family
+        self.basis = basis(
+            model.beam, family, modes, model.drives, model.outputs, model.damping
+        )
+        self.whole, self.whole_error = static_whole(model, family, self.shift)
+        self.rest = self.whole - self._static(self.basis)
+
+    @property
+    def shift(self) -> float:
+        """Sigma [rad^2/s^2]: below zero by the first elastic omega^2 and all divergence."""
+        omega2 = self.basis.omega2
+        elastic = omega2[omega2 > 1e-9 * np.max(np.abs(omega2))]
+        return float(np.min(elastic) + 2 * np.max(np.maximum(-omega2, 0.0)))
+
+    def _static(self, own: Basis) -> Array:
+        """Return the sum at -sigma, of displacements, without rates, (outputs, drives)."""
+        return own.outputs @ (own.drives / (own.omega2 + self.shift)[:, None])
+
+    def at(self, frequency_hz: Array) -> Complex:
+        """Return outputs over drives, (outputs, drives, k)."""
+        return self._sum(self.basis, self.rest, frequency_hz)
+
+    def _sum(self, own: Basis, rest: Array, frequency_hz: Array) -> Complex:
+        omega = 2 * np.pi * frequency_hz
+        coordinates = modal_coordinates(own, omega)
+        H = np.einsum("on,kni->oik", own.outputs, coordinates) + rest[:, :, None]
+        return outputs_of(H, self.model.outputs, self.model.drives, omega, self.family)
+
+    def error(self, frequency_hz: Array) -> Array:
+        """Return how far half of the modes are from all of them, and what is wrong at rest."""
+        half = _first(self.basis, (len(self.basis.omega2) + 1) // 2)
+        few = self._sum(half, self.whole - self._static(half), frequency_hz)
+        missing = np.max(np.abs(self.at(frequency_hz) - few), axis=-1)
+        rates = outputs_of(
+            np.ones((*missing.shape, 1), complex) * self.whole_error[:, :, None],
+            self.model.outputs,
+            self.model.drives,
+            2 * np.pi * np.array([np.max(frequency_hz)]),
+            self.family,
+            ground=False,
+        )
+        return np.asarray(missing + np.abs(rates[:, :, 0]))
+
+
+def modal_coordinates(own: Basis, omega: Array) -> Complex:
+    """Return the modal coordinates under unit drives, shape (k, n, drives)."""
+    inertia = own.omega2 - omega[:, None] ** 2
+    C = own.damping
+    if not np.any(C - np.diag(np.diag(C))):
+        stiff = inertia + 1j * omega[:, None] * np.diag(C)
+        return np.asarray(own.drives / stiff[:, :, None])
+    D = 1j * omega[:, None, None] * C
+    D[:, np.arange(len(C)), np.arange(len(C))] += inertia
+    return np.asarray(np.linalg.solve(D, np.broadcast_to(own.drives, (len(omega), *own.drives.shape))))
+
+
+def outputs_of(
+    H: Complex,
+    outputs: tuple[Output, ...],
+    drives: tuple[Drive, ...],
+    omega: Array,
+    family: FamilyName,
+    ground: bool = True,
+) -> Complex:
+    """Return outputs from their relative components by unit forces and ground accelerations.
+
+    The ground's own motion is added, motions are differentiated, and all is put over what is given
+    of the ground.
+    """
+    H = np.array(H)
+    s = 1j * omega
+    for case, drive in enumerate(drives):
+        if isinstance(drive, Base) and drive.family == family:
+            H[:, case] *= s**2
+            for row, output in enumerate(outputs):
+                if ground and output.family == family and output.moves and not output.relative:
+                    H[row, case] += 1.0
+            H[:, case] /= s**drive.rate
+    for row, output in enumerate(outputs):
+        H[row] *= s**output.rate
+    return H
+
+
+def static_whole(model: Model, family: FamilyName, shift: float) -> tuple[Array, Array]:
+    """Return what all modes do at ``omega^2 = -shift``, relative to the ground, and its error."""
+    lanes = Lanes(np.array([-shift + 0j]), np.zeros(1, complex))
+    rows = model.rows(family)
+    outputs = tuple(
+        Output(o.x, o.quantity, o.direction, o.side, relative=o.moves)
+        for o in (model.outputs[row] for row in rows)
+    )
+    whole, error = (np.zeros((len(model.outputs), len(model.drives))) for _ in range(2))
+
+    def compute(refinement: int) -> Array:
+        forced = Forced(model.beam, family, model.drives, outputs, UNDAMPED, refinement)
+        H = forced.on(lanes)[:, :, 0].real
+        for case, drive in enumerate(model.drives):
+            if isinstance(drive, Base):
+                H[:, case] /= shift  # by the acceleration of the ground, sigma times its motion
+        return H[:, :, None]
+
+    values, wrong = refined(model.beam, family, compute, model.first(family), 1e-9)
+    whole[rows], error[rows] = np.real(values[:, :, 0]), wrong
+    return whole, error + 1e-12 * np.abs(whole)
+
+
+def _first(own: Basis, count: int) -> Basis:
+    """Return the lowest modes of a basis."""
+    order = np.argsort(own.omega2, kind="stable")[:count]
+    return Basis(
+        tuple(own.names[k] for k in order),
+        own.omega2[order],
+        own.damping[np.ix_(order, order)],
+        own.drives[order],
+        own.outputs[:, order],
+    )

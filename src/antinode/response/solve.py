@@ -1,0 +1,48 @@
+"""`solve_response`: from a response file to its result."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from antinode.errors import InputError
+
+from .file import Problem, load_response
+
+if TYPE_CHECKING:
+    from .harmonic import HarmonicResult
+
+    Result = HarmonicResult
+
+
+def solve_response(problem: Problem | str | Path) -> Result:
+    """Compute what a response file asks for.
+
+    Parameters
+    ----------
+    problem : Problem or path
+        As `load_response` returns it, or the name of a response file.
+
+    Returns
+    -------
+    HarmonicResult, RandomResult, TransientResult or ShockResult
+        By the file's `kind`.
+
+    Raises
+    ------
+    InputError
+        If anything in the file is wrong.
+    ComputationError
+        If no trustworthy answer could be computed.
+    """
+    own = problem if isinstance(problem, Problem) else load_response(problem)
+    kind = own.file.response.kind
+    if kind == "harmonic":
+        from .harmonic import solve_harmonic
+
+        return solve_harmonic(own)
+    if kind == "random":
+        from .random import solve_random
+
+        return solve_random(own)
+    raise InputError(f"kind '{kind}' is not known")

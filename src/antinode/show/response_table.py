@@ -1,0 +1,154 @@
+"""Responses on the terminal: what each output does, where it peaks, by which force."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from rich.console import Console
+from rich.text import Text
+
+from antinode.response.units import STANDARD_GRAVITY
+
+from .printing import new_table, show_warnings
+
+if TYPE_CHECKING:
+    from antinode.response.harmonic import HarmonicResult
+    from antinode.response.equipment import Verdict
+    from antinode.response.modal import Basis
+    from antinode.response.random import OutputStatistics, RandomResult
+
+_MOST_PEAKS = 4
+
+
+def show_response(out: Console, result: Any) -> None:
+    """Print a response of any kind."""
+    out.print(Text(f"{result.title}: {result.kind} response, damping: {result.damping.describe()}"))
+    _SHOWN[result.kind](out, result)
+    show_warnings(out, result.warnings)
+
+
+def _show_harmonic(out: Console, result: HarmonicResult) -> None:
+    f = result.frequency_hz
+    out.print(Text(f"{len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz"))
+    table = new_table("output", "peak [Hz]", "amplitude", "unit", "+-", "mode", left=(0, 3, 5))
+    for row, output in enumerate(result.outputs):
+        highest = sorted(result.peaks[row], key=lambda peak: -peak.size)[:_MOST_PEAKS]
+        for peak in highest:
+            cells = (
+                f"{peak.frequency_hz:.6g}",
+                f"{peak.size:.5g}",
+                output.unit,
+                f"{result.error[row]:.1e}",
+                mode_near(result.modes, peak.frequency_hz),
+            )
+            name = output.name if peak is highest[0] else ""
+            table.add_row(*(Text(cell) for cell in (name, *cells)))
+        if not highest:
+            k = int(np.argmax(np.abs(result.values[row])))
+            cells = (f"{f[k]:.6g}", f"{abs(result.values[row, k]):.5g}", output.unit)
+            table.add_row(
+                *(Text(c) for c in (output.name, *cells, f"{result.error[row]:.1e}", "no peak"))
+            )
+    out.print(table)
+
+
+def mode_near(modes: tuple[Basis, ...], frequency_hz: float) -> str:
+    """Return the mode whose frequency is nearest, or nothing if none is within a tenth."""
+    names = [
+        (abs(f / frequency_hz - 1), name)
+        for own in modes
+        for name, f in zip(own.names, own.frequency_hz, strict=True)
+        if f > 0
+    ]
+    distance, name = min(names, default=(1.0, ""))
+    return name if distance < 0.1 else ""
+
+
+
+def _show_random(out: Console, result: RandomResult) -> None:
+    f = result.frequency_hz
+    out.print(Text(f"band {f[0]:g} to {f[-1]:g} Hz, exposure {result.duration_s:g} s"))
+    heads = ("output", "rms", "unit", "+-", "3 sigma", "largest", "up/s", "mostly by")
+    table = new_table(*heads, left=(0, 2, 7))
+    for output, own in zip(result.outputs, result.statistics, strict=True):
+        size = scale_of(output.unit)
+        cells = (
+            f"{own.rms / size.factor:.5g}",
+            size.unit,
+            f"{own.error / size.factor:.1e}",
+            f"{3 * own.rms / size.factor:.4g}",
+            f"{own.peak / size.factor:.4g}",
+            f"{own.crossings_per_s:.4g}",
+            mostly(own),
+        )
+        table.add_row(*(Text(cell) for cell in (output.name, *cells)))
+    out.print(table)
+    _show_envelope(out, result)
+    show_verdicts(out, result.verdicts)
+
+
+def mostly(own: OutputStatistics) -> str:
+    """Say which mode and which force make most of an output."""
+    if not own.by_mode or own.rms == 0:
+        return ""
+    name, share = own.by_mode[0][:2]
+    words = f"{name} ({100 * share:.0f} %)" if name else ""
+    if len(own.by_drive) > 1:
+        force, part = own.by_drive[0]
+        words += f", {force} ({100 * part:.0f} %)"
+    return words
+
+
+def _show_envelope(out: Console, result: RandomResult) -> None:
+    if result.envelope is None:
+        return
+    x = result.envelope["x"]
+    for key, unit in (("acceleration_rms", "m/s^2"), ("bending_moment_rms", "N m")):
+        values = result.envelope[key]
+        k = int(np.argmax(values))
+        size = scale_of(unit)
+        words = key.removesuffix("_rms").replace("_", " ")
+        out.print(
+            Text(
+                f"{words} along the body: at most {values[k] / size.factor:.5g} {size.unit} rms, "
+                f"at {x[k]:.4g} m"
+            )
+        )
+
+
+def show_verdicts(out: Console, verdicts: Sequence[Verdict]) -> None:
+    """Print the equipment line by line."""
+    if not verdicts:
+        return
+    heads = ("equipment", "x [m]", "margin [dB]", "verdict", "at [Hz]", "mode", "force", "rms [g]")
+    table = new_table(*heads, left=(0, 3, 5, 6))
+    for own in verdicts:
+        rms = "" if own.rms is None else f"{own.rms / STANDARD_GRAVITY:.3g}"
+        cells = (
+            f"{own.x:.5g}",
+            f"{own.margin_db:+.2f}",
+            "yes" if own.passed else "NO",
+            f"{own.frequency_hz:.5g}",
+            own.mode,
+            own.force,
+            rms,
+        )
+        table.add_row(*(Text(cell) for cell in (own.name, *cells)))
+    out.print(table)
+
+
+class Shown(NamedTuple):
+    """A unit that people read, and what it is in SI."""
+
+    factor: float
+    unit: str
+
+
+def scale_of(unit: str) -> Shown:
+    """Return g for accelerations, else SI."""
+    return Shown(STANDARD_GRAVITY, "g") if unit == "m/s^2" else Shown(1.0, unit)
+
+
+_SHOWN = {"harmonic": _show_harmonic, "random": _show_random}
