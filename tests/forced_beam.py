@@ -1,4 +1,4 @@
-"""An independent reference for forced beams: hp finite elements, one dense complex solve a frequency.
+"""An independent reference for forced beams: hp finite elements, a dense solve a frequency.
 
 Motion of the supports is told in relative motion, by inertia: nothing is shared with the solver,
 which tells it in absolute motion by supports and springs.
@@ -33,8 +33,9 @@ class HpResponse:
             self.K[np.ix_(dofs, dofs)] += k
             self.M[np.ix_(dofs, dofs)] += m
         self.C = np.zeros((n, n))
-        self.order, self.first = mesh.order, np.concatenate(
-            [[0], np.cumsum([len(c) - 1 for c in cuts])]
+        self.order, self.first = (
+            mesh.order,
+            np.concatenate([[0], np.cumsum([len(c) - 1 for c in cuts])]),
         )
         for item in dampers:
             own = (item.translational, item.rotational) if self.order == 2 else (item.axial,)
@@ -53,7 +54,9 @@ class HpResponse:
         return D[np.ix_(self.free, self.free)]
 
     def solve(self, omega, load):
-        d = 1 / np.sqrt(np.abs(np.diag(self.K)[self.free].real) + omega**2 * np.diag(self.M)[self.free])
+        d = 1 / np.sqrt(
+            np.abs(np.diag(self.K)[self.free].real) + omega**2 * np.diag(self.M)[self.free]
+        )
         u = np.zeros(len(self.K), complex)
         D = self.dynamic(omega) * np.outer(d, d)
         u[self.free] = d * np.linalg.solve(D, d * load[self.free])

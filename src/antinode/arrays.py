@@ -2,8 +2,8 @@
 
 from typing import Literal
 
-from .riccati.arrays import Array, Complex, Integers
+from .riccati.arrays import Array, Complex, Integers, Numbers
 
 Interpolation = Literal["step", "linear", "log"]
 
-__all__ = ["Array", "Complex", "Integers", "Interpolation"]
+__all__ = ["Array", "Complex", "Integers", "Interpolation", "Numbers"]

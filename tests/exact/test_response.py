@@ -84,7 +84,9 @@ def test_cantilever_and_free_beam_by_their_formulas(omega):
         assert error < 1e-8 * abs(exact)
 
 
-@pytest.mark.parametrize(("direction", "force"), [("axial", "axial_force"), ("torsional", "torque")])
+@pytest.mark.parametrize(
+    ("direction", "force"), [("axial", "axial_force"), ("torsional", "torque")]
+)
 @pytest.mark.parametrize("omega", [0.5, 1.57, 4.7, 40.0])
 def test_bars_and_shafts(direction, force, omega):
     k = 1 + 1j * ETA
@@ -109,11 +111,12 @@ def test_a_shaken_cantilever(omega):
     H, _ = values(uniform(left="clamped"), [omega], Base(), Output(1.0, "acceleration"))
     np.testing.assert_allclose(H, [exact], rtol=1e-10)
     moment, _ = values(
-        uniform(left="clamped"), [omega], Base("lateral", "displacement"), Output(0.0, "bending_moment")
+        uniform(left="clamped"),
+        [omega],
+        Base("lateral", "displacement"),
+        Output(0.0, "bending_moment"),
     )
-    np.testing.assert_allclose(
-        moment, [(1 + 1j * ETA) * b**2 * s * S / (1 + c * C)], rtol=1e-10
-    )
+    np.testing.assert_allclose(moment, [(1 + 1j * ETA) * b**2 * s * S / (1 + c * C)], rtol=1e-10)
 
 
 def test_forces_inside_and_statics():
@@ -159,7 +162,9 @@ def test_rayleigh_damping_is_that_of_each_mode():
     damping = Damping(rayleigh=Rayleigh.fitted((0.01, 0.03), (hertz(3.516), hertz(22.03))))
     for omega, zeta in ((3.5160152685, 0.01), (22.0344915647, 0.03)):
         near = np.linspace(omega * (1 - 3 * zeta), omega * (1 + 3 * zeta), 400)
-        H, _ = values(uniform(left="clamped"), near, Force(1.0), Output(1.0, "displacement"), damping)
+        H, _ = values(
+            uniform(left="clamped"), near, Force(1.0), Output(1.0, "displacement"), damping
+        )
         half = near[np.abs(H) ** 2 > np.max(np.abs(H) ** 2) / 2]
         assert np.ptp(half) / (2 * omega) == pytest.approx(zeta, rel=0.03)
 
@@ -183,7 +188,9 @@ def test_random_beams_against_finite_elements(index):
     beam, places, omega = _all_of(index)
     drives = [Force(places[2]), Force(places[1], "moment"), Base()]
     outputs = [Output(places[0], "displacement"), Output(places[2], "slope")]
-    response = frequency_response(beam, hertz(omega), drives, outputs, damping=LOSSY, tolerance=1e-6)
+    response = frequency_response(
+        beam, hertz(omega), drives, outputs, damping=LOSSY, tolerance=1e-6
+    )
     meshes = [HpResponse(beam, ETA, degree=d, phase=p) for d, p in ((11, 2.0), (13, 2.4))]
     found = np.empty((2, *response.values.shape), complex)
     for own, mesh in zip(found, meshes, strict=True):

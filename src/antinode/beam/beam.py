@@ -388,7 +388,8 @@ class Beam(ByValue):
         for column in law.columns:
             table = given(self, family, column)
             varying |= table[:, 0] != table[:, 1]
-        for name in FAMILIES[family].used(self):
+        lossy = () if self.loss_factor is None else ("loss_factor",)
+        for name in (*FAMILIES[family].used(self), *lossy):
             table = getattr(self, name)
             varying |= table[:, 0] != table[:, 1]
         return varying

@@ -41,13 +41,19 @@ Values = Callable[[Integers, Array], Array]
 """Of a property inside intervals, at fractions of their lengths."""
 
 
-def make_chain(beam: Beam, family: FamilyName, refinement: int = 1) -> Chain:
-    """Represent a beam by uniform segments: `Beam.chain`."""
+def make_chain(
+    beam: Beam, family: FamilyName, refinement: int = 1, loss: float | None = None
+) -> Chain:
+    """Represent a beam by uniform segments: `Beam.chain`.
+
+    With a `loss` factor, which adds to the beam's own, the columns are complex: every stiffness
+    times ``1 + i loss``.
+    """
     varies = beam.varies(family)
-    law = FAMILIES[family].law
+    law, values = FAMILIES[family].law, _values(beam, family, loss)
     if not varies.any():
         k, left_end = np.arange(len(beam.x) - 1), np.zeros(len(beam.x) - 1)
-        columns = {name: np.array(v(k, left_end)) for name, v in _values(beam, family).items()}
+        columns = {name: np.array(v(k, left_end)) for name, v in values.items()}
         left, right, points = beam.points(family)
         return Chain(law, np.diff(beam.x), columns, left, right, points)
     cell, start, size = coarsest_steps(beam, family)
@@ -65,7 +71,6 @@ def make_chain(beam: Beam, family: FamilyName, refinement: int = 1) -> Chain:
 
     first = np.concatenate([[0], np.cumsum(np.bincount(interval[step]))])
     length = (np.diff(beam.x)[interval] * size / halves)[step]
-    values = _values(beam, family)
     EI = values.pop("stiffness")
     flexibility = average(lambda k, t: 1.0 / EI(k, t))
     columns = {name: average(of) for name, of in values.items()} | {"stiffness": 1.0 / flexibility}
@@ -73,16 +78,22 @@ def make_chain(beam: Beam, family: FamilyName, refinement: int = 1) -> Chain:
     return Chain(law, length, columns, left, right, points)
 
 
-def _values(beam: Beam, family: FamilyName) -> dict[str, Values]:
+def _values(beam: Beam, family: FamilyName, loss: float | None = None) -> dict[str, Values]:
     """Return what the columns of a chain are inside intervals, by their names."""
 
     def table(name: str) -> Values:
         return lambda k, t: beam.column_at(name, k, t)
 
+    def stiff(name: str) -> Values:
+        if loss is None:
+            return table(name)
+        return lambda k, t: beam.column_at(name, k, t) * (1 + 1j * (loss + own_loss(beam, k, t)))
+
     entry, force = FAMILIES[family], beam.axial_force_at
     for name in entry.law.columns:
         given(beam, family, name)
     values = {name: table(column) for name, column in entry.columns.items()}
+    values["stiffness"] = stiff(entry.columns["stiffness"])
     if entry.law.has_axial_force:
         values["axial_force"] = force
     used = entry.used(beam)
@@ -97,15 +108,25 @@ def _values(beam: Beam, family: FamilyName) -> dict[str, Values]:
         m, r = table("mass_per_length"), table("radius_of_gyration")
         values["rotary_inertia"] = lambda k, t: m(k, t) * r(k, t) ** 2
     if "shear_stiffness" in used:
-        values |= _shear(table("shear_stiffness"), force, beam.shear_form == "engesser")
+        values |= _shear(stiff("shear_stiffness"), force, beam.shear_form == "engesser")
     return values
+
+
+def own_loss(beam: Beam, interval: Integers, fraction: Array) -> Array:
+    """Return the beam's own loss factor inside intervals; zero where none is given."""
+    if beam.loss_factor is None:
+        return np.zeros(())
+    return beam.column_at("loss_factor", interval, fraction)
 
 
 def _shear(stiffness: Values, force: Values, engesser: bool) -> dict[str, Values]:
     """Return s, sN and sN^2 of Haringx' form; Engesser's kGA is one that is smaller by N."""
 
     def flexibility(k: Integers, t: Array) -> Array:
-        return np.asarray(1.0 / (stiffness(k, t) - (force(k, t) if engesser else 0.0)))
+        kGA = stiffness(k, t)
+        rigid = np.isinf(kGA)
+        soft = np.where(rigid, 1.0, kGA - (force(k, t) if engesser else 0.0))
+        return np.asarray(np.where(rigid, 0.0, 1.0 / soft))
 
     return {
         "shear": flexibility,

@@ -93,9 +93,7 @@ class DashpotTable(Frozen):
     @model_validator(mode="after")
     def _check_any(self) -> Self:
         if not (self.translational or self.rotational or self.axial or self.torsional):
-            raise ValueError(
-                "all values are 0; give translational, rotational, axial or torsional"
-            )
+            raise ValueError("all values are 0; give translational, rotational, axial or torsional")
         return self
 
     def attachment(self) -> Dashpot:

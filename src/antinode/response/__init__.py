@@ -1,1 +1,1 @@
-"""Responses: what a beam does under forces and moving supports, and what that means for equipment."""
+"""Responses: what a beam does under forces and moving supports, and what equipment then feels."""

@@ -18,9 +18,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from antinode.arrays import Array, Complex
+from antinode.arrays import Array, Numbers
 from antinode.errors import InputError
-from antinode.riccati.chain import Chain
 from antinode.riccati.forced import Lanes
 
 
@@ -49,7 +48,7 @@ class Rayleigh:
             If the frequencies are alike or not positive, or it would drive a mode.
         """
         (low, high), (a, b) = (2 * np.pi * f for f in frequencies_hz), ratios
-        if not (0 < low and 0 < high and low != high):
+        if not (low > 0 and high > 0 and low != high):
             raise InputError(
                 f"damping.rayleigh.frequencies are {frequencies_hz[0]:g} and "
                 f"{frequencies_hz[1]:g} Hz; give two different ones above 0"
@@ -105,16 +104,7 @@ class Damping:
         """Return the viscous ratio of mode 1, 2, ... where ratios are given for modes."""
         return self.modal[min(mode, len(self.modal)) - 1]
 
-    def loss(self, chain: Chain) -> Array:
-        """Return the loss factor of every segment."""
-        return np.full(len(chain.length), self.loss_factor)
-
-    def columns(self, chain: Chain) -> dict[str, Complex]:
-        """Return the columns of a chain with what they lose."""
-        factor = 1 + 1j * self.loss(chain)
-        return {name: _damped(name, values, factor) for name, values in chain.columns.items()}
-
-    def lanes(self, omega: Array) -> tuple[Lanes, Complex]:
+    def lanes(self, omega: Array) -> tuple[Lanes, Numbers]:
         """Return how frequencies stand in the chain, and what displacements are multiplied by."""
         if self.rayleigh is None:
             return Lanes((omega**2).astype(complex), 1j * omega), np.ones(len(omega), complex)
@@ -135,12 +125,3 @@ class Damping:
 
 
 UNDAMPED = Damping()
-
-
-def _damped(name: str, values: Array, factor: Complex) -> Complex:
-    """Return a column with loss: stiffness times a factor, what is a compliance over it."""
-    if name == "stiffness":
-        return np.asarray(values * factor)
-    if name.startswith("shear"):
-        return np.asarray(values / factor)
-    return values.astype(complex)

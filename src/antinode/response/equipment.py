@@ -7,7 +7,7 @@ response's own peaks and between them, where both are known. Below zero the verd
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -47,6 +47,8 @@ class Verdict:
         Of the acceleration over the band [m/s^2].
     band_hz : tuple of float
         Where both curves are known.
+    curve : tuple of array
+        Frequencies [Hz], what is felt, what is allowed.
     """
 
     name: str
@@ -59,6 +61,7 @@ class Verdict:
     mode: str
     force: str
     band_hz: tuple[float, float]
+    curve: tuple[Array, Array, Array] = field(repr=False, compare=False)
     rms: float | None = None
 
     @property
@@ -136,6 +139,7 @@ class Item:
             nearest_mode(modes, f),
             names[int(np.argmax(shares[:, worst]))] if len(names) == len(shares) else "",
             (float(frequency_hz[0]), float(frequency_hz[-1])),
+            (frequency_hz, felt, allowed),
         )
 
 

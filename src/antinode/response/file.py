@@ -96,7 +96,8 @@ class FrequencyTable(Frozen):
         """Return the frequencies [Hz]."""
         if self.values:
             return np.array(self.values)
-        assert self.from_ is not None and self.to is not None
+        assert self.from_ is not None
+        assert self.to is not None
         spread = np.geomspace if self.spacing == "log" else np.linspace
         return np.asarray(spread(self.from_, self.to, self.points))
 
@@ -161,7 +162,8 @@ class OutputTable(Frozen):
     x: Length = Field(description="station [m]")
     quantity: QuantityName = Field(description="displacement, acceleration, bending_moment, ...")
     direction: Direction | None = Field(
-        None, description="of displacement, velocity, acceleration, reaction; default that of forces"
+        None,
+        description="of displacement, velocity, acceleration, reaction; default that of forces",
     )
     side: Side = Field("left", description="of what sits at the station")
     relative: bool = Field(False, description="to the moving supports")
@@ -275,8 +277,7 @@ class ResponseFile(Frozen):
         """Return the complex amplitudes of the drives, SI."""
         return np.array(
             [
-                in_si(table.amplitude, drive.unit, f"{name}.amplitude")
-                * np.exp(1j * table.phase)
+                in_si(table.amplitude, drive.unit, f"{name}.amplitude") * np.exp(1j * table.phase)
                 for (name, table), drive in zip(self.drive_tables(), self.drives, strict=True)
             ]
         )

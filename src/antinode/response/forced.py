@@ -13,12 +13,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from antinode.arrays import Array, Complex
+from antinode.arrays import Array, Numbers
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
+from antinode.beam.representation import make_chain
 from antinode.errors import ComputationError
 from antinode.modes.refinement import layer_length, varying_segments
-from antinode.riccati.chain import Chain
 from antinode.riccati.convergence import extrapolate
 from antinode.riccati.forced import Lanes, Loads, Sides, forced_states, unit_jump
 from antinode.riccati.points import Point
@@ -55,7 +55,7 @@ class Forced:
     ) -> None:
         self.chain, self.damping = beam.chain(family, refinement), damping
         self.drives, self.outputs, self.origin = drives, outputs, float(beam.x[0])
-        self.columns = damping.columns(self.chain)
+        self.columns = make_chain(beam, family, refinement, damping.loss_factor).columns
         self.places = np.unique([self.node(o.x) for o in outputs])
         self.loads = self._loads(family)
 
@@ -80,8 +80,8 @@ class Forced:
                 force[family_of(drive.direction).directions.index(drive.direction), case] = 1.0
         return Loads(at_nodes, along, ground)
 
-    def at(self, omega: Array) -> Complex:
-        """Return outputs over drives, shape (outputs, drives, k), at frequencies above 0 [rad/s]."""
+    def at(self, omega: Array) -> Numbers:
+        """Return outputs over drives, (outputs, drives, k), at frequencies above 0 [rad/s]."""
         lanes, softer = self.damping.lanes(omega)
         H = self.on(lanes, lambda z: self._proportioned(z, omega, softer))
         for row, output in enumerate(self.outputs):
@@ -91,7 +91,7 @@ class Forced:
                 H[:, case] /= (1j * omega) ** drive.rate
         return H
 
-    def on(self, lanes: Lanes, damped: Callable[[Complex], Complex] | None = None) -> Complex:
+    def on(self, lanes: Lanes, damped: Callable[[Numbers], Numbers] | None = None) -> Numbers:
         """Return components of states, not their rates, over forces and displacements."""
         sides = forced_states(self.chain, self.columns, lanes, self.loads, self.places)
         if damped is not None:
@@ -101,7 +101,7 @@ class Forced:
             H[row] = self._output(output, sides, lanes).T
         return H
 
-    def _proportioned(self, z: Complex, omega: Array, softer: Complex) -> Complex:
+    def _proportioned(self, z: Numbers, omega: Array, softer: Numbers) -> Numbers:
         """Return states with Rayleigh damping, (nodes, k, s, cases), from those of `Damping.lanes`.
 
         Damping by mass acts on motion relative to the ground, as that of modes does.
@@ -118,7 +118,7 @@ class Forced:
         z[:, :, 0] += ground
         return z
 
-    def _output(self, output: Output, sides: Sides, lanes: Lanes) -> Complex:
+    def _output(self, output: Output, sides: Sides, lanes: Lanes) -> Numbers:
         """Return an output of every case, shape (k, cases)."""
         node = self.node(output.x)
         place = int(np.searchsorted(self.places, node))
@@ -130,9 +130,7 @@ class Forced:
             z = z - self.loads.ground
         return np.asarray(z)
 
-    def _reaction(
-        self, freedom: int, node: int, place: int, sides: Sides, lanes: Lanes
-    ) -> Complex:
+    def _reaction(self, freedom: int, node: int, place: int, sides: Sides, lanes: Lanes) -> Numbers:
         """Return what the ground does to the beam along a displacement of a node, (k, cases)."""
         law, last = self.chain.law, len(self.chain.length)
         left, right = sides.left[place], sides.right[place]
@@ -154,10 +152,10 @@ class Forced:
 def refined(
     beam: Beam,
     family: FamilyName,
-    compute: Callable[[int], Array | Complex],
+    compute: Callable[[int], Array | Numbers],
     first: int,
     tolerance: float,
-) -> tuple[Complex, Array]:
+) -> tuple[Numbers, Array]:
     """Return numbers of a beam, and how wrong they may be, from chains whose steps are halved.
 
     Parameters
@@ -181,7 +179,7 @@ def refined(
         If no chain of reasonable length meets the tolerance.
     """
 
-    def on(levels: dict[FamilyName, int]) -> Array | Complex:
+    def on(levels: dict[FamilyName, int]) -> Array | Numbers:
         return compute(levels[family])
 
     return refined_all(beam, {family: first}, on, tolerance)
@@ -190,9 +188,9 @@ def refined(
 def refined_all(
     beam: Beam,
     first: dict[FamilyName, int],
-    compute: Callable[[dict[FamilyName, int]], Array | Complex],
+    compute: Callable[[dict[FamilyName, int]], Array | Numbers],
     tolerance: float,
-) -> tuple[Complex, Array]:
+) -> tuple[Numbers, Array]:
     """Return numbers that several families make together, as `refined` does.
 
     Parameters
@@ -207,7 +205,7 @@ def refined_all(
     if not varying:
         values = np.asarray(compute(refinement))
         return values, np.zeros(values.shape[:-1])
-    levels: list[Complex] = []
+    levels: list[Numbers] = []
     while True:
         chains = [beam.chain(family, refinement[family]) for family in varying]
         levels.append(np.asarray(compute(refinement)))
@@ -226,7 +224,7 @@ def refined_all(
         refinement = {f: r * (2 if f in varying else 1) for f, r in refinement.items()}
 
 
-def _judged(levels: list[Complex], layer: float) -> tuple[Complex, Array]:
+def _judged(levels: list[Numbers], layer: float) -> tuple[Numbers, Array]:
     """Extrapolate by `riccati.convergence`, number by number; the largest error counts."""
     shape = levels[-1].shape
     rows = np.array([level.reshape(-1, shape[-1]) for level in levels])
@@ -244,5 +242,3 @@ def with_stations(beam: Beam, places: list[float]) -> Beam:
     from antinode.beam.attachments import on_beam
 
     return beam.with_breakpoints([on_beam(x, beam.x) for x in places])
-
-

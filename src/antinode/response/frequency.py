@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arguments import ByValue, numbers, within
-from antinode.arrays import Array, Complex
+from antinode.arrays import Array, Numbers
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
@@ -48,7 +48,7 @@ class FrequencyResponse(ByValue):
     drives : tuple of Force or Base
     outputs : tuple of Output
     values : array, shape (outputs, drives, k)
-        Complex, time as exp(+i omega t): unit of the output over unit of the drive.
+        Numbers, time as exp(+i omega t): unit of the output over unit of the drive.
     error : array, shape (outputs, drives)
         Largest distance of any of the values from the beam's own, in the same unit.
     segments : dict
@@ -59,7 +59,7 @@ class FrequencyResponse(ByValue):
     frequency_hz: Array
     drives: tuple[Drive, ...]
     outputs: tuple[Output, ...]
-    values: Complex = field(repr=False)
+    values: Numbers = field(repr=False)
     error: Array
     segments: dict[str, int]
 
@@ -109,7 +109,7 @@ class Model:
         ]
         self.highest_hz = highest_hz
         self._chains: dict[tuple[FamilyName, int], Forced] = {}
-        self._at: Callable[[Array], Complex] | None = None
+        self._at: Callable[[Array], Numbers] | None = None
 
     def first(self, family: FamilyName) -> int:
         """Return the refinement to start from."""
@@ -140,7 +140,7 @@ class Model:
             for family in self.families
         }
 
-    def response(self, frequency_hz: Array, tolerance: float) -> tuple[Complex, Array]:
+    def response(self, frequency_hz: Array, tolerance: float) -> tuple[Numbers, Array]:
         """Return outputs over drives (outputs, drives, k), and errors (outputs, drives)."""
         omega = 2 * np.pi * frequency_hz
         H = np.zeros((len(self.outputs), len(self.drives), len(omega)), dtype=complex)
@@ -148,7 +148,7 @@ class Model:
         for family in self.families:
             rows = self.rows(family)
 
-            def compute(refinement: int, family: FamilyName = family) -> Complex:
+            def compute(refinement: int, family: FamilyName = family) -> Numbers:
                 return self.forced(family, refinement).at(omega)
 
             H[rows], error[rows] = refined(
@@ -158,12 +158,11 @@ class Model:
             error[rows] += rounding(self.forced(family, finest), omega, H[rows])
         return H, error
 
-
-    def use(self, at: Callable[[Array], Complex]) -> None:
+    def use(self, at: Callable[[Array], Numbers]) -> None:
         """Take outputs over drives from a function of frequencies [Hz] henceforth."""
         self._at = at
 
-    def on(self, levels: dict[FamilyName, int], frequency_hz: Array) -> Complex:
+    def on(self, levels: dict[FamilyName, int], frequency_hz: Array) -> Numbers:
         """Return outputs over drives, (outputs, drives, k), on chains of given refinements."""
         if self._at is not None:
             return self._at(frequency_hz)
@@ -173,7 +172,7 @@ class Model:
             H[self.rows(family)] = self.forced(family, refinement).at(omega)
         return H
 
-    def quick(self, frequency_hz: Array) -> Complex:
+    def quick(self, frequency_hz: Array) -> Numbers:
         """Return outputs over drives, (outputs, drives, k), by the chains that `response` needed.
 
         Extrapolated from the last two levels where something varies.
@@ -191,13 +190,17 @@ class Model:
         return H
 
 
-def rounding(forced: Forced, omega: Array, H: Complex) -> Array:
+def rounding(forced: Forced, omega: Array, H: Numbers) -> Array:
     """Return how wrong rounding may make responses (outputs, drives, k): (outputs, drives)."""
     size = np.abs(H).reshape(-1, len(omega))
-    steep = np.abs(np.diff(H.reshape(-1, len(omega)), axis=-1, append=H.reshape(-1, len(omega))[:, -1:]))
+    steep = np.abs(
+        np.diff(H.reshape(-1, len(omega)), axis=-1, append=H.reshape(-1, len(omega))[:, -1:])
+    )
     steep = np.maximum(steep, np.roll(steep, 1, axis=-1))
-    peak, steepest = (np.argsort(v / np.maximum(np.max(v, axis=-1, keepdims=True), 1e-300), axis=-1)
-        for v in (size, steep))
+    peak, steepest = (
+        np.argsort(v / np.maximum(np.max(v, axis=-1, keepdims=True), 1e-300), axis=-1)
+        for v in (size, steep)
+    )
     worst = np.unique(np.concatenate([peak[:, -2:].ravel(), steepest[:, -2:].ravel()]))
     worst = worst[:: max(1, len(worst) // _SAMPLES)]
     moved = np.abs(forced.at(omega[worst] * (1 + _STEP)) - H[:, :, worst]) / _STEP

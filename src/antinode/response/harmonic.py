@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from antinode.arguments import ByValue
-from antinode.arrays import Array, Complex
+from antinode.arrays import Array, Numbers
 from antinode.beam.beam import Beam
 from antinode.beam.limits import out_of_range_is_an_error
 
@@ -26,7 +26,7 @@ _ABOVE = 1.2  # of the highest frequency up to which resonances are looked up
 
 @dataclass(frozen=True, eq=False)
 class HarmonicResult(ByValue):
-    """Complex amplitudes of outputs over frequency.
+    """Numbers amplitudes of outputs over frequency.
 
     Attributes
     ----------
@@ -34,12 +34,15 @@ class HarmonicResult(ByValue):
     frequency_hz : array, shape (k,)
     outputs : tuple of Output
     values : array, shape (outputs, k)
-        Complex amplitudes, time as exp(+i omega t), SI.
+        Numbers amplitudes, time as exp(+i omega t), SI.
     error : array, shape (outputs,)
         Largest distance of any value from the beam's own, SI.
     shares : array, shape (outputs, drives, k)
         What each drive makes of it, complex.
+    drives : tuple of Force or Base
     drive_names : tuple of str
+    amplitudes : array, shape (drives,)
+        Complex, SI.
     peaks : tuple of tuple of Peak
         Of each output, inside the band.
     modes : tuple of Basis
@@ -51,10 +54,12 @@ class HarmonicResult(ByValue):
     title: str
     frequency_hz: Array
     outputs: tuple[Output, ...]
-    values: Complex = field(repr=False)
+    values: Numbers = field(repr=False)
     error: Array
-    shares: Complex = field(repr=False)
+    shares: Numbers = field(repr=False)
+    drives: tuple[Drive, ...]
     drive_names: tuple[str, ...]
+    amplitudes: Numbers
     peaks: tuple[tuple[Peak, ...], ...]
     modes: tuple[Basis, ...] = field(repr=False)
     damping: Damping
@@ -85,6 +90,20 @@ class HarmonicResult(ByValue):
             "warnings": list(self.warnings),
         }
 
+    def curves(self) -> list[tuple[Output, Drive | None, Array, Numbers, str]]:
+        """Return output, drive, frequencies, output over drive and unit, for universal files."""
+        return [
+            (
+                o,
+                d,
+                self.frequency_hz,
+                self.shares[i, j] / self.amplitudes[j],
+                f"{o.unit}/({d.unit})",
+            )
+            for i, o in enumerate(self.outputs)
+            for j, d in enumerate(self.drives)
+            if d.family == o.family
+        ]
 
     def columns(self) -> list[tuple[str, Array]]:
         """Return a table: frequency, then real and imaginary part of each output."""
@@ -133,8 +152,8 @@ def resonance_warnings(modes: tuple[Basis, ...], low: float, high: float) -> lis
     if not names:
         return []
     return [
-        f"no damping: at {', '.join(names[:6])} the response grows without bound, and only how near "
-        "a frequency comes to the resonance limits it; give [damping] loss_factor"
+        f"no damping: at {', '.join(names[:6])} the response grows without bound, and only how "
+        "near a frequency comes to the resonance limits it; give [damping] loss_factor"
     ]
 
 
@@ -165,7 +184,7 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
     grid = with_resonances(frequency, resonance, ratio) if len(frequency) > 1 else frequency
 
     def sizes(places: Array) -> Array:
-        return np.abs(np.einsum("odk,d->ok", at(places), amplitude))
+        return np.asarray(np.abs(np.einsum("odk,d->ok", at(places), amplitude)))
 
     peaks = find_peaks(sizes, grid, sizes(grid)) if len(grid) > 2 else [[] for _ in outputs]
     warnings = resonance_warnings(modes, float(frequency[0]), float(frequency[-1]))
@@ -176,7 +195,9 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
         shares.sum(axis=1),
         error @ np.abs(amplitude),
         shares,
+        drives,
         file.drive_names,
+        amplitude,
         tuple(map(tuple, peaks)),
         modes,
         damping,

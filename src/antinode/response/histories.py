@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from antinode.arguments import ByValue, numbers
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers, Numbers
 from antinode.errors import InputError
 
 from .units import in_si, read_columns
@@ -67,7 +67,9 @@ class History(ByValue):
         k = np.searchsorted(t, time_s, side="right")
         return self._between(np.clip(k, 1, len(t) - 1), time_s, k == 0, k >= len(t), v)
 
-    def _between(self, k: Array, time_s: Array, early: Array, late: Array, v: Array) -> Array:
+    def _between(
+        self, k: Integers, time_s: Array, early: Numbers, late: Numbers, v: Array
+    ) -> Array:
         t = self.time_s
         step = t[k] - t[k - 1]
         share = np.clip((time_s - t[k - 1]) / np.where(step > 0, step, 1.0), 0.0, 1.0)
@@ -162,7 +164,9 @@ def history_from(source: object, unit: str, folder: Path, where: str) -> History
         )
     for key in source:
         if key not in _KEYS:
-            raise InputError(f"{where}: unknown key {str(key)[:40]}; allowed are {', '.join(_KEYS)}")
+            raise InputError(
+                f"{where}: unknown key {str(key)[:40]}; allowed are {', '.join(_KEYS)}"
+            )
     height = in_si(source.get("height", 1.0), unit, f"{where}.height")
     duration = in_si(source.get("duration"), "s", f"{where}.duration")
     start = in_si(source.get("start", 0.0), "s", f"{where}.start")

@@ -12,11 +12,12 @@ until the sums of two orders agree. The stated error is what they still differ b
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers
 from antinode.errors import ComputationError
 
 _LOW, _HIGH = 10, 16  # Gauss points of the two sums
@@ -26,8 +27,7 @@ _MOST_PIECES = 40_000
 _LEAST_WIDTH = 1e-9  # zeta of a resonance without damping
 
 
-@dataclass(frozen=True)
-class Pieces:
+class Pieces(NamedTuple):
     """Intervals of u around a resonance each.
 
     Attributes
@@ -44,7 +44,7 @@ class Pieces:
     width: Array
     low: Array
     high: Array
-    cell: Array
+    cell: Integers
 
     def points(self, order: int) -> tuple[Array, Array]:
         """Return Gauss points [Hz] and weights, shape (p, order)."""
@@ -54,19 +54,20 @@ class Pieces:
         f = self.centre[:, None] + self.width[:, None] * np.sinh(u)
         return f, half[:, None] * w * self.width[:, None] * np.cosh(u)
 
-    def chosen(self, which: Array) -> Pieces:
+    def chosen(self, which: Integers) -> Pieces:
         """Return some of them."""
-        return Pieces(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
+        centre, width, low, high, cell = self
+        return Pieces(centre[which], width[which], low[which], high[which], cell[which])
 
     def halved(self) -> Pieces:
         """Return each as two."""
         middle = (self.low + self.high) / 2
-        twice = [np.tile(values, 2) for values in (self.centre, self.width)]
+        centre, width = np.tile(self.centre, 2), np.tile(self.width, 2)
         low, high = np.concatenate([self.low, middle]), np.concatenate([middle, self.high])
-        return Pieces(*twice, low, high, np.tile(self.cell, 2))
+        return Pieces(centre, width, low, high, np.tile(self.cell, 2))
 
 
-def cells(low: float, high: float, resonance_hz: Array) -> tuple[Array, Array]:
+def cells(low: float, high: float, resonance_hz: Array) -> tuple[Array, Integers]:
     """Return the bounds between resonances, halfway from one to the next, and the resonances.
 
     Returns
@@ -87,7 +88,7 @@ def cells(low: float, high: float, resonance_hz: Array) -> tuple[Array, Array]:
 
 def pieces_of(
     low: float, high: float, resonance_hz: Array, ratio: Array, kinks: Array
-) -> tuple[Pieces, Array, Array]:
+) -> tuple[Pieces, Array, Integers]:
     """Return the pieces of a band, the bounds of its cells and the resonance of each cell."""
     if not len(resonance_hz):
         resonance_hz, ratio = np.array([np.sqrt(low * high)]), np.array([1.0])
@@ -101,12 +102,12 @@ def pieces_of(
         if bounds[k] < f < bounds[k + 1]:
             places = np.unique(np.append(places, f))
         u = np.arcsinh((places - f) / w)
-        for a, b in zip(u[:-1], u[1:], strict=True):
+        for a, b in pairwise(u.tolist()):
             number = int(np.ceil((b - a) / _LONGEST))
             ends = np.linspace(a, b, number + 1)
-            rows += [(f, w, c, d, k) for c, d in zip(ends[:-1], ends[1:], strict=True)]
-    table = np.array(rows)
-    return Pieces(*table.T[:4], table[:, 4].astype(np.int64)), bounds, owner
+            rows += [(f, w, c, d, k) for c, d in pairwise(ends.tolist())]
+    centre, width, first, last, cell = np.array(rows).T
+    return Pieces(centre, width, first, last, cell.astype(np.int64)), bounds, owner
 
 
 def integrate(

@@ -19,6 +19,7 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
+from antinode.beam.representation import own_loss
 from antinode.errors import InputError
 from antinode.modes.result import ModalResult
 from antinode.modes.solve import solve_one
@@ -91,9 +92,7 @@ def solved_modes(beam: Beam, family: FamilyName, modes: int) -> ModalResult:
             f"{modes} modes lie in the range of frequencies; at most {MOST_MODES} are computed: "
             "lower its end"
         )
-    return solve_one(
-        beam, max(modes, 1), families=[family], normalisation="mass", tolerance=1e-8
-    )
+    return solve_one(beam, max(modes, 1), families=[family], normalisation="mass", tolerance=1e-8)
 
 
 def basis(
@@ -121,7 +120,11 @@ def basis(
     omega2 = np.array([mode.omega2 for mode in found])
     b = np.array([shown.driven(d) if d.family == family else 0 * omega2 for d in drives])
     c = np.array([shown.seen(o) if o.family == family else 0 * omega2 for o in outputs])
-    C = shown.dashpots() + np.diag(_own_damping(shown, omega2, found, damping))
+    middle = beam.x[0] + (chain.nodes[1:] + chain.nodes[:-1]) / 2
+    interval = np.clip(np.searchsorted(beam.x, middle) - 1, 0, len(beam.x) - 2)
+    fraction = (middle - beam.x[interval]) / np.diff(beam.x)[interval]
+    loss = damping.loss_factor + own_loss(beam, interval, fraction) + np.zeros(len(middle))
+    C = shown.dashpots() + np.diag(_own_damping(shown, omega2, found, damping, loss))
     return Basis(
         tuple(mode.name for mode in found),
         omega2,
@@ -131,7 +134,9 @@ def basis(
     )
 
 
-def _own_damping(shown: _Shown, omega2: Array, found: tuple[object, ...], given: Damping) -> Array:
+def _own_damping(
+    shown: _Shown, omega2: Array, found: tuple[object, ...], given: Damping, loss: Array
+) -> Array:
     """Return 2 zeta_n omega_n of every mode [1/s], without dashpots."""
     omega = np.sqrt(np.maximum(omega2, 0.0))
     if given.rayleigh is not None:
@@ -140,7 +145,7 @@ def _own_damping(shown: _Shown, omega2: Array, found: tuple[object, ...], given:
         numbers = [getattr(mode, "number", 0) for mode in found]
         ratios = np.array([given.ratio(number) if number else 0.0 for number in numbers])
         return np.asarray(2 * ratios * omega)
-    share = shown.strain(given.loss(shown.chain)) / np.where(omega2 > 0, omega2, 1.0)
+    share = shown.strain(loss) / np.where(omega2 > 0, omega2, 1.0)
     return np.asarray(np.where(omega2 > 0, share * omega, 0.0))
 
 
@@ -157,7 +162,8 @@ class _Shown:
         """Return the states on the left side of a node, shape (n, s)."""
         before = np.array([node - 1])
         length = self.chain.length[before]
-        return propagate(self.chain, self.states[before], self.omega2, length, before)[0]
+        z = propagate(self.chain, self.states[before], self.omega2, length, before)
+        return np.asarray(z[0])
 
     def before_joint(self, node: int) -> Array:
         """Return the states that masses, springs and forces at a node feel: left of its joint."""
@@ -180,9 +186,7 @@ class _Shown:
         left = self.left(node) if node else zero
         right = self.states[node] if node < last else zero
         felt = left if node else right
-        inertia = np.einsum(
-            "nij,nj->ni", law.load(free, self.omega2) - np.eye(law.size), felt
-        )
+        inertia = np.einsum("nij,nj->ni", law.load(free, self.omega2) - np.eye(law.size), felt)
         one = Point(0, mass=1.0) if freedom == 0 else Point(0, inertia=1.0)
         unit = (law.load(one, np.ones(1))[0] - np.eye(law.size))[:, freedom]
         force = int(np.flatnonzero(unit)[0])

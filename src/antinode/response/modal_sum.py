@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from antinode.arrays import Array, Complex
+from antinode.arrays import Array, Numbers
 from antinode.beam.families import FamilyName
 from antinode.errors import ComputationError
 from antinode.riccati.forced import Lanes
@@ -45,10 +45,10 @@ class ModalSum:
         The same at other frequencies [Hz].
     """
 
-    values: Complex
+    values: Numbers
     error: Array
     modes: int
-    at: Callable[[Array], Complex]
+    at: Callable[[Array], Numbers]
 
 
 def modal_response(
@@ -87,7 +87,7 @@ def modal_response(
         bounds += error
         count += len(part.basis.omega2)
 
-    def at(places: Array) -> Complex:
+    def at(places: Array) -> Numbers:
         return np.asarray(sum(part.at(places) for part in parts))
 
     return ModalSum(at(frequency_hz), bounds, count, at)
@@ -98,9 +98,7 @@ class Summed:
 
     def __init__(self, model: Model, family: FamilyName, modes: int) -> None:
         self.model, self.family = model, family
-        self.basis = basis(
-            model.beam, family, modes, model.drives, model.outputs, model.damping
-        )
+        self.basis = basis(model.beam, family, modes, model.drives, model.outputs, model.damping)
         self.whole, self.whole_error = static_whole(model, family, self.shift)
         self.rest = self.whole - self._static(self.basis)
 
@@ -115,11 +113,11 @@ class Summed:
         """Return the sum at -sigma, of displacements, without rates, (outputs, drives)."""
         return own.outputs @ (own.drives / (own.omega2 + self.shift)[:, None])
 
-    def at(self, frequency_hz: Array) -> Complex:
+    def at(self, frequency_hz: Array) -> Numbers:
         """Return outputs over drives, (outputs, drives, k)."""
         return self._sum(self.basis, self.rest, frequency_hz)
 
-    def _sum(self, own: Basis, rest: Array, frequency_hz: Array) -> Complex:
+    def _sum(self, own: Basis, rest: Array, frequency_hz: Array) -> Numbers:
         omega = 2 * np.pi * frequency_hz
         coordinates = modal_coordinates(own, omega)
         H = np.einsum("on,kni->oik", own.outputs, coordinates) + rest[:, :, None]
@@ -141,7 +139,7 @@ class Summed:
         return np.asarray(missing + np.abs(rates[:, :, 0]))
 
 
-def modal_coordinates(own: Basis, omega: Array) -> Complex:
+def modal_coordinates(own: Basis, omega: Array) -> Numbers:
     """Return the modal coordinates under unit drives, shape (k, n, drives)."""
     inertia = own.omega2 - omega[:, None] ** 2
     C = own.damping
@@ -150,17 +148,19 @@ def modal_coordinates(own: Basis, omega: Array) -> Complex:
         return np.asarray(own.drives / stiff[:, :, None])
     D = 1j * omega[:, None, None] * C
     D[:, np.arange(len(C)), np.arange(len(C))] += inertia
-    return np.asarray(np.linalg.solve(D, np.broadcast_to(own.drives, (len(omega), *own.drives.shape))))
+    return np.asarray(
+        np.linalg.solve(D, np.broadcast_to(own.drives, (len(omega), *own.drives.shape)))
+    )
 
 
 def outputs_of(
-    H: Complex,
+    H: Numbers,
     outputs: tuple[Output, ...],
     drives: tuple[Drive, ...],
     omega: Array,
     family: FamilyName,
     ground: bool = True,
-) -> Complex:
+) -> Numbers:
     """Return outputs from their relative components by unit forces and ground accelerations.
 
     The ground's own motion is added, motions are differentiated, and all is put over what is given

@@ -122,8 +122,7 @@ class Output:
         """Its SI unit."""
         family = FAMILIES[self.family]
         if self.component < 0:
-            force = family.quantities[self.component].unit
-            return force
+            return family.quantities[self.component].unit
         return family.quantities[self.component].unit + ("", "/s", "/s^2")[self.rate]
 
     @property

@@ -1,4 +1,4 @@
-"""Random vibration: spectra of outputs, their rms with errors, crossings, peaks, and who makes them.
+"""Random vibration: spectra of outputs, their rms with errors, crossings, peaks, who makes them.
 
     S_y = sum_jk conj(H_j) H_k S_jk,   rms^2 = int S_y df,   nu = sqrt(int f^2 S_y df / int S_y df)
 
@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from antinode.arguments import ByValue
-from antinode.arrays import Array, Complex
+from antinode.arrays import Array, Numbers
 from antinode.beam.families import FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import InputError
@@ -33,7 +33,7 @@ from .modal import Basis
 from .modal_sum import modal_response
 from .numbers import plain
 from .peaks import Peak, find_peaks, with_resonances
-from .quantities import Output
+from .quantities import Drive, Output
 from .spectra import Spectrum, spectrum_from
 from .units import spectral
 
@@ -58,7 +58,7 @@ class Inputs:
         If no random forces can go together so.
     """
 
-    def __init__(self, spectra: Sequence[Spectrum], coherence: Complex | None = None) -> None:
+    def __init__(self, spectra: Sequence[Spectrum], coherence: Numbers | None = None) -> None:
         self.spectra = tuple(spectra)
         n = len(self.spectra)
         self.coherence = np.eye(n, dtype=complex) if coherence is None else coherence
@@ -75,15 +75,15 @@ class Inputs:
 
     def amplitudes(self, frequency_hz: Array) -> Array:
         """Return the roots of the spectra, shape (drives, k)."""
-        return np.sqrt(np.array([s.at(frequency_hz) for s in self.spectra]))
+        return np.asarray(np.sqrt(np.array([s.at(frequency_hz) for s in self.spectra])))
 
-    def shares(self, H: Complex, frequency_hz: Array) -> Array:
+    def shares(self, H: Numbers, frequency_hz: Array) -> Array:
         """Return what each drive makes of the outputs' spectra, (outputs, drives, k)."""
         X = H * self.amplitudes(frequency_hz)
         together = np.einsum("jl,olk->ojk", self.coherence, X)
         return np.asarray(np.real(np.conj(X) * together))
 
-    def spectra_of(self, H: Complex, frequency_hz: Array) -> Array:
+    def spectra_of(self, H: Numbers, frequency_hz: Array) -> Array:
         """Return the outputs' spectra, (outputs, k)."""
         return np.asarray(np.maximum(np.sum(self.shares(H, frequency_hz), axis=1), 0.0))
 
@@ -217,6 +217,11 @@ class RandomResult(ByValue):
             "peaks": [peak.to_dict() for peak in self.peaks[row]],
         }
 
+    def curves(self) -> list[tuple[Output, Drive | None, Array, Array, str]]:
+        """Return output, no drive, frequencies, spectrum and unit, for universal files."""
+        rows = zip(self.outputs, self.psd, strict=True)
+        return [(o, None, self.frequency_hz, psd, spectral(o.unit)) for o, psd in rows]
+
     def columns(self) -> list[tuple[str, Array]]:
         """Return a table: frequency, then the spectrum of each output."""
         rows = zip(self.outputs, self.psd, strict=True)
@@ -309,28 +314,30 @@ def statistics(
     """Return what the outputs come to."""
     found = []
     for row, square in enumerate(own.square.tolist()):
-        rms, nu = float(np.sqrt(square)), 0.0
-        safe = square if square > 0 else 1.0
-        nu = float(np.sqrt(own.second[row] / safe)) if square > 0 else 0.0
-        error = float(own.error[row] / (2 * np.sqrt(safe))) if square > 0 else 0.0
-        merged: dict[str, list[float]] = {}
-        for k, name in enumerate(own.owners):
-            entry = merged.setdefault(name, [0.0, float(own.bounds[k]), float(own.bounds[k + 1])])
-            entry[0] += float(own.by_mode[row, k] / safe)
-            entry[2] = float(own.bounds[k + 1])
-        by_mode = sorted(((n, *v) for n, v in merged.items()), key=lambda item: -item[1])
+        rms, safe = float(np.sqrt(square)), square if square > 0 else 1.0
+        nu = float(np.sqrt(max(own.second[row], 0.0) / safe))
         by_drive = [(n, float(v / safe)) for n, v in zip(names, own.by_drive[row], strict=True)]
         found.append(
             OutputStatistics(
                 rms,
-                error,
+                float(own.error[row] / (2 * np.sqrt(safe))),
                 nu,
                 davenport(rms, nu, duration_s),
-                tuple((n, a, b, c) for n, a, b, c in by_mode),
+                _by_mode(own, row, safe),
                 tuple(sorted(by_drive, key=lambda item: -item[1])),
             )
         )
     return tuple(found)
+
+
+def _by_mode(own: Moments, row: int, whole: float) -> tuple[tuple[str, float, float, float], ...]:
+    """Return modes with their shares and bands, the largest first."""
+    merged: dict[str, tuple[str, float, float, float]] = {}
+    for k, name in enumerate(own.owners):
+        low, high = float(own.bounds[k]), float(own.bounds[k + 1])
+        _, share, first, _ = merged.get(name, (name, 0.0, low, high))
+        merged[name] = name, share + float(own.by_mode[row, k] / whole), first, high
+    return tuple(sorted(merged.values(), key=lambda item: -item[1]))
 
 
 def davenport(rms: float, crossings_per_s: float, duration_s: float) -> float:
@@ -381,7 +388,9 @@ def solve_random(problem: Problem) -> RandomResult:
     assert file.frequency is not None
     frequency, inputs = file.frequency.hertz(), inputs_of(problem)
     if len(frequency) < 2:
-        raise InputError(f"{problem.where}: a random response needs a band: two frequencies or more")
+        raise InputError(
+            f"{problem.where}: a random response needs a band: two frequencies or more"
+        )
     band = float(frequency[0]), float(frequency[-1])
     items = items_of(problem, "psd")
     drives, outputs = file.drives, (*file.outputs, *(item.output for item in items))
@@ -453,7 +462,7 @@ def _judge(
 def envelope_of(
     problem: Problem, inputs: Inputs, modes: tuple[Basis, ...], band: tuple[float, float]
 ) -> dict[str, Array] | None:
-    """Return rms of acceleration and bending moment along the body, to 1e-4; None without lateral."""
+    """Return rms of acceleration and bending moment along the body; None without lateral ones."""
     file = problem.file
     if file.direction != "lateral" or problem.damping.modal:
         return None

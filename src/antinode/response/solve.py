@@ -11,8 +11,9 @@ from .file import Problem, load_response
 
 if TYPE_CHECKING:
     from .harmonic import HarmonicResult
+    from .random import RandomResult
 
-    Result = HarmonicResult
+    Result = HarmonicResult | RandomResult
 
 
 def solve_response(problem: Problem | str | Path) -> Result:

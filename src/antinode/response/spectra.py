@@ -1,4 +1,4 @@
-"""Spectra: power spectral densities and other curves over frequency, straight between log-log points.
+"""Spectra: power densities and other curves over frequency, straight between points, log-log.
 
 A density is one-sided: the mean square is its integral over positive frequencies [Hz]. Between two
 points ``S = S1 (f/f1)^n``: n of 1 is 3.01 dB an octave.

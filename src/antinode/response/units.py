@@ -115,8 +115,8 @@ def _factors(
         )
     factors = []
     for cell, unit in zip(head.cells, units, strict=True):
-        name, bracket, written = cell.replace("(", "[", 1).partition("[") if "[" not in cell else (
-            cell.partition("[")
+        name, bracket, written = (
+            cell.replace("(", "[", 1).partition("[") if "[" not in cell else (cell.partition("["))
         )
         try:
             number(name)

@@ -10,19 +10,19 @@ recursion, equation 74). The right end's conditions give a there, and the last o
 it back. No mode is left out: the answer is exact for the chain, at any complex omega^2 and
 stiffness that `Law.transfer` takes.
 
-A force F along a displacement makes the jump that an inertia force m omega^2 u makes, because a mass
-is felt as that force (`Law.load`): ``Q+ = Q- + F``, ``M+ = M- - moment``, ``T+ = T- - torque``.
+A force F along a displacement makes the jump that an inertia force m omega^2 u makes, because a
+mass is felt as that force (`Law.load`): ``Q+ = Q- + F``, ``M+ = M- - moment``, ``T+ = T- - T``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from .arrays import Array, Complex, Integers
+from .arrays import Array, Integers, Numbers
 from .chain import Chain, end_frame, multiply_groups, split_long, state_units
 from .laws import Columns, Law, Units
 from .points import Point
@@ -67,15 +67,15 @@ class Lanes(NamedTuple):
         What a dashpot of 1 N s/m adds to a spring: i omega [1/s], complex.
     """
 
-    omega2: Complex
-    dashpot: Complex
+    omega2: Numbers
+    dashpot: Numbers
 
 
 class Sides(NamedTuple):
     """States at some nodes, on either side of what sits there, shape (nodes, k, s, cases)."""
 
-    left: Complex
-    right: Complex
+    left: Numbers
+    right: Numbers
 
 
 def unit_jump(law: Law, freedom: int) -> Array:
@@ -127,15 +127,13 @@ def forced_states(
 class _Step(NamedTuple):
     """Between two places: ``a = back a+ + shift``, and the frame and particular state after it."""
 
-    F: Complex
-    p: Complex
-    back: Complex
-    shift: Complex
+    F: Numbers
+    p: Numbers
+    back: Numbers
+    shift: Numbers
 
 
-def _states(
-    chain: Chain, columns: Columns, lanes: Lanes, loads: Loads, wanted: Integers
-) -> Sides:
+def _states(chain: Chain, columns: Columns, lanes: Lanes, loads: Loads, wanted: Integers) -> Sides:
     """Carry frame and particular state to the right end, and the coefficients back."""
     sweep = _Sweep(chain, columns, lanes, loads)
     before, after = sweep.run(wanted)
@@ -160,6 +158,8 @@ class _Sweep:
     def __init__(self, chain: Chain, columns: Columns, lanes: Lanes, loads: Loads) -> None:
         self.chain, self.columns, self.lanes, self.loads = chain, columns, lanes, loads
         self.law = chain.law
+        foundation = chain.columns.get("foundation", np.zeros(len(chain.length)))
+        self.along = loads.along + foundation[:, None] * loads.ground
         size = np.abs(lanes.omega2)
         self.of_chain: Units = chain.units(size)
         self.units = state_units(chain, size)
@@ -172,7 +172,7 @@ class _Sweep:
         zero = np.zeros((len(size), d, loads.cases), dtype=complex)
         self.steps = [_Step(frame, p, start, zero)]
 
-    def _ground(self, row: int) -> Complex:
+    def _ground(self, row: int) -> Numbers:
         """Return the scaled motion of the ground along a displacement, shape (k, cases)."""
         motion = self.loads.ground if row == 0 else np.zeros(self.loads.cases)
         return np.asarray(motion / self.units[:, row, None])
@@ -195,7 +195,7 @@ class _Sweep:
                 self._pass_segments(node, places[k + 1])
         return before, after
 
-    def last_coefficients(self) -> Complex:
+    def last_coefficients(self) -> Numbers:
         """Return the coefficients that meet the right end's conditions."""
         chain, last = self.chain, self.steps[-1]
         beside = {name: float(values[-1]) for name, values in chain.columns.items()}
@@ -224,14 +224,11 @@ class _Sweep:
         if point is None:
             self._add(f)
             return
-        stiff = replace(
-            point,
-            spring=point.spring + point.dashpot * self.lanes.dashpot,
-            rotational_spring=point.rotational_spring
-            + point.rotational_dashpot * self.lanes.dashpot,
-        )
+        spring: Any = point.spring + point.dashpot * self.lanes.dashpot
+        turning: Any = point.rotational_spring + point.rotational_dashpot * self.lanes.dashpot
+        stiff = replace(point, spring=spring, rotational_spring=turning)
         jump = unit_jump(law, 0)[:, None] * self.loads.ground
-        f += stiff.spring[:, None, None] * jump / self.units[:, :, None]
+        f += spring[:, None, None] * jump / self.units[:, :, None]
         self._pass(self._scaled(law.load(stiff, self.lanes.omega2)), f)
 
     def _pass_segments(self, node: int, end: int) -> None:
@@ -240,10 +237,11 @@ class _Sweep:
         columns = {name: values[some, None] for name, values in self.columns.items()}
         length = self.chain.length[some, None]
         U = self.law.transfer(length, columns, self.lanes.omega2, self.of_chain)
-        if np.any(self.loads.along[some]):
+        along = self.along[some]
+        if np.any(along):
             driven = self._driven(length, columns)
             for k in range(end - node):
-                self._pass(U[k], driven[k, :, :, None] * self.loads.along[node + k])
+                self._pass(U[k], driven[k, :, :, None] * along[k])
             return
         wave = self.law.wave_number(self.chain, float(np.max(np.abs(self.lanes.omega2))))
         phase = np.cumsum((wave * self.chain.length)[some])
@@ -252,8 +250,8 @@ class _Sweep:
         for block in multiply_groups(U, starts):
             self._pass(block, None)
 
-    def _driven(self, length: Array, columns: Columns) -> Complex:
-        """Return the state at the right end of segments under a unit force per length, (n, k, s)."""
+    def _driven(self, length: Array, columns: Columns) -> Numbers:
+        """Return the state behind segments under a unit force per length, (n, k, s)."""
         jump = unit_jump(self.law, 0) / self.units
         total = np.zeros((len(length), *self.units.shape), dtype=complex)
         for point, weight in zip(*gauss_rule(1.0), strict=True):
@@ -261,17 +259,17 @@ class _Sweep:
             total += weight * length[:, :, None] * np.einsum("nkij,kj->nki", U, jump)
         return total
 
-    def _scaled(self, T: Complex) -> Complex:
+    def _scaled(self, T: Numbers) -> Numbers:
         return np.asarray(T * self.units[:, None, :] / self.units[:, :, None])
 
-    def _add(self, f: Complex) -> None:
+    def _add(self, f: Numbers) -> None:
         """Pass a force alone."""
         before = self.steps[-1]
         q = np.swapaxes(before.F.conj(), -1, -2) @ f
         unit = np.broadcast_to(np.eye(q.shape[-2], dtype=complex), (*q.shape[:-1], q.shape[-2]))
         self.steps.append(_Step(before.F, before.p + f - before.F @ q, unit, -q))
 
-    def _pass(self, U: Complex, f: Complex | None) -> None:
+    def _pass(self, U: Numbers, f: Numbers | None) -> None:
         """Pass ``z+ = U z + f``."""
         before = self.steps[-1]
         F, inverse = orthonormal(U @ before.F)
@@ -306,7 +304,7 @@ class _Sweep:
         self.steps.append(_Step(new, wall - new @ q, back, moved - back @ q))
 
     @staticmethod
-    def _onto(row: Complex, missing: Complex) -> tuple[Complex, Complex]:
+    def _onto(row: Numbers, missing: Numbers) -> tuple[Numbers, Numbers]:
         """Return the shortest a with ``row a = missing``, and a unit vector that row annuls."""
         size = np.linalg.norm(row, axis=-1, keepdims=True)
         unit = row / size
@@ -314,7 +312,7 @@ class _Sweep:
         return (unit.conj() / size)[:, :, None] * missing[:, None, :], null
 
 
-def orthonormal(V: Complex) -> tuple[Complex, Complex]:
+def orthonormal(V: Numbers) -> tuple[Numbers, Numbers]:
     """Return Q with orthonormal columns and R^-1, where ``V = Q R``, for one or two columns."""
     k, _, d = V.shape
     Q, inverse = np.empty_like(V), np.zeros((k, d, d), dtype=complex)
@@ -332,5 +330,5 @@ def orthonormal(V: Complex) -> tuple[Complex, Complex]:
     return Q, inverse
 
 
-def _square(v: Complex) -> Array:
+def _square(v: Numbers) -> Array:
     return np.asarray(np.sum(v.real**2 + v.imag**2, axis=-1))

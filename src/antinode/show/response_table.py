@@ -14,8 +14,8 @@ from antinode.response.units import STANDARD_GRAVITY
 from .printing import new_table, show_warnings
 
 if TYPE_CHECKING:
-    from antinode.response.harmonic import HarmonicResult
     from antinode.response.equipment import Verdict
+    from antinode.response.harmonic import HarmonicResult
     from antinode.response.modal import Basis
     from antinode.response.random import OutputStatistics, RandomResult
 
@@ -47,10 +47,9 @@ def _show_harmonic(out: Console, result: HarmonicResult) -> None:
             table.add_row(*(Text(cell) for cell in (name, *cells)))
         if not highest:
             k = int(np.argmax(np.abs(result.values[row])))
-            cells = (f"{f[k]:.6g}", f"{abs(result.values[row, k]):.5g}", output.unit)
-            table.add_row(
-                *(Text(c) for c in (output.name, *cells, f"{result.error[row]:.1e}", "no peak"))
-            )
+            largest = (f"{f[k]:.6g}", f"{abs(result.values[row, k]):.5g}", output.unit)
+            more = (f"{result.error[row]:.1e}", "no peak")
+            table.add_row(*(Text(cell) for cell in (output.name, *largest, *more)))
     out.print(table)
 
 
@@ -64,7 +63,6 @@ def mode_near(modes: tuple[Basis, ...], frequency_hz: float) -> str:
     ]
     distance, name = min(names, default=(1.0, ""))
     return name if distance < 0.1 else ""
-
 
 
 def _show_random(out: Console, result: RandomResult) -> None:
@@ -151,4 +149,4 @@ def scale_of(unit: str) -> Shown:
     return Shown(STANDARD_GRAVITY, "g") if unit == "m/s^2" else Shown(1.0, unit)
 
 
-_SHOWN = {"harmonic": _show_harmonic, "random": _show_random}
+_SHOWN: dict[str, Any] = {"harmonic": _show_harmonic, "random": _show_random}
