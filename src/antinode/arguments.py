@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from operator import index
 from typing import Any, ClassVar, get_args
@@ -115,6 +115,8 @@ def _values(item: ByValue) -> Iterable[Any]:
 def _equal(a: Any, b: Any) -> bool:
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
         return np.array_equal(a, b, equal_nan=True)
+    if isinstance(a, Mapping) and isinstance(b, Mapping):
+        return a.keys() == b.keys() and all(_equal(a[key], b[key]) for key in a)
     return bool(a == b or (a != a and b != b))
 
 
@@ -124,7 +126,7 @@ def _hashable(value: Any) -> Any:
         number = value + 0.0
         return value.shape, np.where(np.isnan(number), np.nan, number).tobytes()
     if isinstance(value, dict):
-        return tuple(value.items())
+        return tuple((key, _hashable(item)) for key, item in value.items())
     if isinstance(value, float) and value != value:
         return "nan"
     return value

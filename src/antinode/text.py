@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from reprlib import Repr
 
 MOST_CHARACTERS = 60
@@ -38,6 +38,12 @@ def one_line(text: str, most: int) -> str:
 def counted(number: int, noun: str, plural: str = "") -> str:
     """Write a number with its noun: 1 interval, 2 intervals, 2 point masses."""
     return f"{number} {noun if number == 1 else plural or noun + 's'}"
+
+
+def listed(names: Iterable[str]) -> str:
+    """Write names as a list in a sentence: a, b and c."""
+    *most, last = names
+    return f"{', '.join(most)} and {last}" if most else last
 
 
 def nearest(name: str, allowed: Sequence[str]) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path, PurePath
 
-from antinode.beam.file import COLUMNS as BEAM_COLUMNS
+from antinode.beam.file import ALL_COLUMNS as BEAM_COLUMNS
 from antinode.errors import AntinodeError, InputError
 from antinode.examples import EXAMPLES, write_example
 from antinode.inputs.reading import read_tables, read_toml, toml_source

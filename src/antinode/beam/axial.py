@@ -15,6 +15,7 @@ import numpy as np
 from antinode.arrays import Array, Integers
 from antinode.errors import InputError
 
+from . import curves
 from .attachments import Spring, on_beam
 from .beam import Beam
 from .families import LONGITUDINAL
@@ -149,11 +150,11 @@ def _flexibility(beam: Beam, forces: Array, body: float) -> tuple[Array, Array]:
             "axial_stiffness is missing: a beam held axially at more than one place shares its "
             "load by EA [N]"
         )
-    k, start, size = _pieces(EA)
+    k, start, size = _pieces(EA) if EA.shape[1] == 2 else _halved_pieces(EA)
     at = start[:, None] + size[:, None] * _POINTS
     h = (np.diff(beam.x)[k] * size)[:, None] * _WEIGHTS
     bare = np.cumsum(forces)[:-1]
-    compliance = h / beam.at(EA, k[:, None], at)
+    compliance = h / beam.column_at("axial_stiffness", k[:, None], at)
     carried = body * beam.mass_left_of(k[:, None], at) + bare[k, None]
     joints = beam.axial_joint_compliance[:-1]
     flexibility = np.bincount(k, np.sum(compliance, axis=1)) + joints
@@ -180,3 +181,19 @@ def _pieces(EA: Array) -> tuple[Integers, Array, Array]:
 
     start = bound(number)
     return k, start, bound(number + 1) - start
+
+
+def _halved_pieces(EA: Array) -> tuple[Integers, Array, Array]:
+    """Return the same where EA is a polynomial: its control values tell where it is steep."""
+    k = np.arange(len(EA))
+    start, size = np.zeros(len(k)), np.ones(len(k))
+    while True:
+        control = curves.part(EA[k], start, start + size)
+        steep = np.max(control, axis=1) > _STEEPEST / 2 * np.min(control, axis=1)
+        if not steep.any():
+            return k, start, size
+        pieces = np.where(steep, 2, 1)
+        k, start = np.repeat(k, pieces), np.repeat(start, pieces)
+        size = np.repeat(size / pieces, pieces)
+        second = np.append(False, (k[1:] == k[:-1]) & (start[1:] == start[:-1]))
+        start = start + second * size

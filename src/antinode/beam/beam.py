@@ -1,7 +1,8 @@
 """The beam: what every vibration problem of antinode becomes, and all that the solver needs.
 
 Properties are given on intervals between breakpoints by their values at both ends of the interval
-and vary between them linearly or logarithmically (the axial force always linearly). N > 0 is
+and vary between them linearly or logarithmically (the axial force always linearly), or are
+polynomials by their control values (`beam.curves`): what follows from a drawing is. N > 0 is
 compression; x runs from the left end (the nose) to the right.
 
 A chain of uniform segments represents an interval exactly when nothing varies in it. Elsewhere each
@@ -14,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +26,7 @@ from antinode.errors import InputError
 from antinode.riccati.chain import Chain
 from antinode.riccati.points import Point
 
+from . import curves
 from .attachments import (
     Attachment,
     Joint,
@@ -40,15 +42,18 @@ from .checks import (
     ShearForm,
     Theory,
     check,
-    check_rows,
     check_stations,
+    column_of_rows,
     given,
 )
 from .ends import FREE, Ends
 from .families import FAMILIES, FamilyName, tells
-from .mass import MassDistribution, mass_within
-from .profile import interpolated
+from .mass import moments_of_part, shifted
+from .profile import breakpoints, interpolated, interval_ends, kept_intervals
 from .representation import make_chain
+
+if TYPE_CHECKING:
+    from .sections.drawing import Drawing
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +65,8 @@ class Beam(ByValue):
     x : array, shape (n + 1,)
         Breakpoints from left to right [m].
     mass_per_length, bending_stiffness : array, shape (n, 2)
-        m [kg/m] and EI [N m^2] at the left and right end of every interval, positive.
+        m [kg/m] and EI [N m^2] at the left and right end of every interval, positive. These and all
+        other tables may also have the shape (n, p + 1): control values of polynomials.
     axial_stiffness : array, shape (n, 2), optional
         EA [N]; without it there are no longitudinal modes.
     axial_force : array, shape (n, 2), optional
@@ -100,6 +106,9 @@ class Beam(ByValue):
         Whether the part of N that the axial acceleration makes of an offset point mass acts
         through its own centre, and so bends the beam when it turns.
     name : str
+    drawing : Drawing, optional
+        What mass and stiffness follow from (`beam.sections`), for those who show or write the beam;
+        the solver reads the tables alone.
 
     Raises
     ------
@@ -133,6 +142,7 @@ class Beam(ByValue):
     attachments: tuple[Attachment, ...] = ()
     offset_weight: bool = True
     name: str = "beam"
+    drawing: Drawing | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "x", owned("x", self.x))
@@ -180,8 +190,7 @@ class Beam(ByValue):
             raise TypeError(f"a beam has no column {unknown[0]!r}; it may have {', '.join(TABLES)}")
         stations = np.atleast_1d(numbers("x", x))
         check_stations(stations)
-        kept = (stations[1:] != stations[:-1]) | (interpolation == "step")
-        whole = kept.all()
+        kept = kept_intervals(stations, interpolation)
         columns["mass_per_length"], columns["bending_stiffness"] = (
             mass_per_length,
             bending_stiffness,
@@ -190,13 +199,12 @@ class Beam(ByValue):
         tables: dict[str, Any] = {}
         for column, values in columns.items():
             if values is not None:
-                rows = _column(column, values, len(stations), interpolation)
-                table = _sides(rows, len(kept), interpolation)
-                tables[column] = table if whole else owned(column, table[kept])
+                rows = column_of_rows(column, values, len(stations), interpolation)
+                tables[column] = interval_ends(rows, kept, interpolation)
         if not {"mass_per_length", "bending_stiffness"} <= tables.keys():
             raise InputError("mass_per_length and bending_stiffness are needed at every station")
         return cls(
-            stations if whole else np.append(stations[:-1][kept], stations[-1:]),
+            breakpoints(stations, kept),
             **tables,
             interpolation=interpolation,
             ends=ends or FREE,
@@ -218,7 +226,8 @@ class Beam(ByValue):
     @cached_property
     def mass_left(self) -> Array:
         """Mass left of every breakpoint and at it [kg], shape (n + 1,)."""
-        whole = self._mass_of_part(np.arange(len(self.x) - 1), np.ones(len(self.x) - 1))
+        n = len(self.x) - 1
+        whole = self._mass_of_part(np.arange(n), np.ones(n))
         points = np.zeros(len(self.x))
         for item in self.attachments:
             if isinstance(item, PointMass):
@@ -230,9 +239,8 @@ class Beam(ByValue):
         return np.asarray(self.mass_left[interval] + self._mass_of_part(interval, fraction))
 
     def _mass_of_part(self, interval: Integers, fraction: Array) -> Array:
-        a, b = self.mass_per_length[interval, 0], self.mass_per_length[interval, 1]
-        length = np.diff(self.x)[interval]
-        return mass_within(a, b, length, fraction * length, self.interpolation)
+        m, length = self.mass_per_length[interval], np.diff(self.x)[interval]
+        return moments_of_part(m, length, fraction, self.interpolation, most=0)[0]
 
     def _breakpoint(self, x: float) -> int:
         return int(np.argmin(np.abs(self.x - x)))
@@ -259,7 +267,10 @@ class Beam(ByValue):
         start, end = (x[:-1] - self.x[k]) / size, (x[1:] - self.x[k]) / size
         tables: dict[str, Any] = {}
         for name in TABLES:
-            if getattr(self, name) is not None:
+            values = getattr(self, name)
+            if values is not None and values.shape[1] > 2:
+                tables[name] = curves.part(values[k], start, end)
+            elif values is not None:
                 sides = (self.column_at(name, k, start), self.column_at(name, k, end))
                 tables[name] = np.stack(sides, axis=1)
         return replace(self, x=x, **tables)
@@ -274,8 +285,9 @@ class Beam(ByValue):
     @cached_property
     def moment_of_inertia(self) -> float:
         """Moment of inertia about the centre of mass [kg m^2], point masses included."""
-        x, ends = self.x - self.x[0], self.mass_per_length
-        J0, J1, J2 = MassDistribution(x, ends, self.interpolation).moments_ahead[:, -1]
+        x, h = (self.x - self.x[0])[:-1], np.diff(self.x)
+        parts = moments_of_part(self.mass_per_length, h, np.ones(len(h)), self.interpolation)
+        J0, J1, J2 = (float(np.sum(part)) for part in shifted(x, *parts))
         masses = [item for item in self.attachments if isinstance(item, PointMass)]
         dm = np.array([J0, *(item.mass for item in masses)])
         at = np.array([J1 / J0, *(item.x + item.offset - self.x[0] for item in masses)])
@@ -283,14 +295,14 @@ class Beam(ByValue):
         own = J2 - J1 * J1 / J0 + sum(item.rotary_inertia for item in masses)
         return float(own + np.sum(dm * (at - centre) ** 2))
 
-    def at(self, values: Array, interval: Integers, fraction: Array) -> Array:
-        """Interpolate a property inside intervals, at fractions 0 ... 1 of their lengths."""
-        a, b = values[interval, 0], values[interval, 1]
-        return np.asarray(interpolated(a, b, fraction, self.interpolation))
-
     def column_at(self, name: str, interval: Integers, fraction: Array) -> Array:
-        """Return a table's values inside intervals; what no logarithm is for runs straight."""
+        """Return a table's values inside intervals, at fractions 0 ... 1 of their lengths.
+
+        What no logarithm is for runs straight, or by its control values.
+        """
         values = getattr(self, name)
+        if values.shape[1] > 2:
+            return curves.value(values[interval], fraction)
         a, b = values[interval, 0], values[interval, 1]
         how = self.interpolation if name in LOGARITHMIC else "linear"
         if name != "shear_stiffness":
@@ -312,11 +324,16 @@ class Beam(ByValue):
 
     def axial_force_at(self, interval: Integers, fraction: Array) -> Array:
         """Return N [N] inside intervals, at fractions 0 ... 1 of their lengths."""
-        table = self.axial_force[interval]
-        N = table[..., 0] + (table[..., 1] - table[..., 0]) * fraction
+        N = self.column_at("axial_force", interval, fraction)
         if self.axial_acceleration == 0.0:
             return np.asarray(N)
         return np.asarray(N + self.axial_acceleration * self.mass_left_of(interval, fraction))
+
+    @cached_property
+    def is_curved(self) -> bool:
+        """Whether a table holds control values of polynomials."""
+        tables = (getattr(self, name) for name in TABLES)
+        return any(table is not None and table.shape[1] > 2 for table in tables)
 
     @cached_property
     def is_unloaded(self) -> bool:
@@ -372,6 +389,7 @@ class Beam(ByValue):
             x=total - self.x[::-1],
             ends=self.ends.reversed(),
             attachments=tuple(items[::-1]),
+            drawing=self.drawing and self.drawing.reversed(),
             **flip,
         )
 
@@ -387,11 +405,11 @@ class Beam(ByValue):
         varying = np.full(len(self.x) - 1, accelerates)
         for column in law.columns:
             table = given(self, family, column)
-            varying |= table[:, 0] != table[:, 1]
+            varying |= np.any(table[:, 1:] != table[:, :1], axis=1)
         lossy = () if self.loss_factor is None else ("loss_factor",)
         for name in (*FAMILIES[family].used(self), *lossy):
             table = getattr(self, name)
-            varying |= table[:, 0] != table[:, 1]
+            varying |= np.any(table[:, 1:] != table[:, :1], axis=1)
         return varying
 
     def chain(self, family: FamilyName, refinement: int = 1) -> Chain:
@@ -468,21 +486,3 @@ def _lateral_freedoms(places: set[float], slope_held: bool) -> Array:
     if slope_held:
         return np.array([[1.0, 0.0]])
     return np.array([[-x, 1.0] for x in places]) if places else np.eye(2)
-
-
-def _sides(rows: Array, intervals: int, interpolation: Interpolation) -> Array:
-    """Return values at both ends of every interval, shape (n, 2), from those at stations."""
-    table = np.empty((intervals, 2))
-    table[:, 0] = rows[:intervals]
-    table[:, 1] = rows[:intervals] if interpolation == "step" else rows[1:]
-    table.flags.writeable = False
-    return table
-
-
-def _column(name: str, values: npt.ArrayLike, rows: int, interpolation: Interpolation) -> Array:
-    """Return a column with a value at every station, from one number for all or one for each."""
-    column = numbers(name, values)
-    if column.ndim == 0:
-        column = np.full(rows, column)
-    check_rows(name, column, rows, interpolation)
-    return column

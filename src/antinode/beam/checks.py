@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import numpy.typing as npt
 
-from antinode.arguments import choice
+from antinode.arguments import choice, numbers
 from antinode.arrays import Array, Interpolation
 from antinode.errors import InputError
 from antinode.text import counted
@@ -35,6 +35,7 @@ def check(beam: Beam) -> None:
         values = getattr(beam, name)
         if values is not None:
             _check_table(name, values, n)
+            _check_logarithm(beam, name, values)
     _check_complete(beam)
     check_shear(beam)
     if beam.attachments:
@@ -68,8 +69,19 @@ def _check_rising(x: Array) -> None:
     )
 
 
-def check_rows(name: str, column: Array, rows: int, interpolation: Interpolation) -> None:
-    """Raise InputError unless a column has a value for each station, or step, of a table."""
+def column_of_rows(
+    name: str, values: npt.ArrayLike, rows: int, interpolation: Interpolation
+) -> Array:
+    """Return a column with a value at every station, from one number for all or one for each.
+
+    Raises
+    ------
+    InputError
+        Unless it has one for each station, or step, of a table.
+    """
+    column = numbers(name, values)
+    if column.ndim == 0:
+        column = np.full(rows, column)
     choice("interpolation", interpolation, Interpolation)
     allowed = (rows, rows - 1) if interpolation == "step" else (rows,)
     if column.ndim != 1 or len(column) not in allowed:
@@ -78,6 +90,7 @@ def check_rows(name: str, column: Array, rows: int, interpolation: Interpolation
             f"{name} has shape {column.shape}, but x has {counted(rows, 'station')}: give one "
             f"value for each, shape {wanted}, or a single number"
         )
+    return column
 
 
 def _check_complete(beam: Beam) -> None:
@@ -105,8 +118,11 @@ def _check_supports(beam: Beam) -> None:
 
 
 def _check_table(name: str, values: Array, n: int) -> None:
-    if values.shape != (n, 2):
-        raise InputError(f"{name} has shape {values.shape}; {n} intervals need shape ({n}, 2)")
+    if values.ndim != 2 or len(values) != n or values.shape[1] < 2:
+        raise InputError(
+            f"{name} has shape {values.shape}; {n} intervals need shape ({n}, 2), or ({n}, p + 1) "
+            "for the control values of polynomials"
+        )
     least = -np.inf if name == "axial_force" else 0.0
     if least < values.min() and values.max() < np.inf:  # no NaN: every table may have these
         return
@@ -115,11 +131,20 @@ def _check_table(name: str, values: Array, n: int) -> None:
         wanted = ALLOWED.get(name, "positive and finite")
         raise InputError(f"{name} must be {wanted}: interval {row + 1} has {values[row, side]:g}")
     if name in _MAY_BE_INFINITE:
-        for row in np.flatnonzero(np.isinf(values[:, 0]) != np.isinf(values[:, 1]))[:1]:
+        for row in np.flatnonzero(np.isinf(values[:, 0]) != np.isinf(values[:, -1]))[:1]:
             raise InputError(
-                f"{name} runs from {values[row, 0]:g} to {values[row, 1]:g} in interval {row + 1}: "
-                "give inf at both ends of an interval (two rows at one x are a jump), or at neither"
+                f"{name} runs from {values[row, 0]:g} to {values[row, -1]:g} in interval "
+                f"{row + 1}: give inf at both ends of an interval (two rows at one x are a jump), "
+                "or at neither"
             )
+
+
+def _check_logarithm(beam: Beam, name: str, values: Array) -> None:
+    if beam.interpolation == "log" and name in LOGARITHMIC and values.shape[1] > 2:
+        raise InputError(
+            f"{name} has shape {values.shape}, control values of polynomials, but the "
+            "interpolation is 'log': use 'linear'"
+        )
 
 
 TABLES = (

@@ -30,9 +30,14 @@ from antinode.text import counted
 from .axial import apply_loads
 from .beam import Beam
 from .checks import ALLOWED, ShearForm, Theory, allowed_values
+from .curves import total
 from .ends import AxialEnd, End, Ends, TorsionEnd
 from .limits import check_limits
 from .parts import MassTable, check_on_body
+from .sections.drawn import OTHERS, drawn_beam
+from .sections.material import Material
+from .sections.shapes import DIMENSIONS
+from .sections.table import SectionColumns, check_material
 from .station_csv import without_hull
 from .tables import AttachmentTables
 
@@ -51,6 +56,8 @@ COLUMNS = (
     "added_mass_per_length",
     "loss_factor",
 )
+"""Of stations, without those of sections."""
+ALL_COLUMNS = (*COLUMNS, *DIMENSIONS)
 
 
 class Solve(Frozen):
@@ -93,14 +100,18 @@ class BeamEnds(Frozen):
     )
 
 
-class BeamStations(Frozen):
+class BeamStations(SectionColumns):
     """The table along the beam; rows count from 1."""
 
     x: Annotated[Array, Column("m")] = Field(
         description="position [m], increasing; two rows at one x: a jump"
     )
-    mass_per_length: Annotated[Array, Column("kg/m")] = Field(description="m [kg/m]")
-    bending_stiffness: Annotated[Array, Column("N m^2")] = Field(description="EI [N m^2]")
+    mass_per_length: Annotated[Array, Column("kg/m")] | None = Field(
+        None, description="m [kg/m]; needed unless the section's dimensions are given"
+    )
+    bending_stiffness: Annotated[Array, Column("N m^2")] | None = Field(
+        None, description="EI [N m^2]; needed unless the section's dimensions are given"
+    )
     axial_stiffness: Annotated[Array, Column("N")] | None = Field(
         None, description="EA [N]; without it there are no longitudinal modes"
     )
@@ -139,12 +150,27 @@ class BeamStations(Frozen):
     @model_validator(mode="after")
     def _check_table(self) -> Self:
         _check_positions(self.x)
-        for name in COLUMNS[1:]:
+        self._check_complete()
+        for name in ALL_COLUMNS[1:]:
             column = getattr(self, name)
             if column is not None:
                 _check_column(name, column, len(self.x))
+        self.check_sections()
         both_or_neither(self, "torsional_stiffness", "polar_inertia_per_length")
         return self
+
+    def _check_complete(self) -> None:
+        for name in ("mass_per_length", "bending_stiffness"):
+            if getattr(self, name) is None and not self.dimensions():
+                raise ValueError(
+                    f"{name} is missing; add it, or give the section's dimensions and "
+                    "[beam.material] ('antinode schema' lists every key with its unit)"
+                )
+
+    def given(self, names: Iterable[str]) -> dict[str, Array]:
+        """Return those of some columns that are given."""
+        columns = {name: getattr(self, name) for name in names}
+        return {name: column for name, column in columns.items() if column is not None}
 
 
 def _check_positions(x: Array) -> None:
@@ -203,6 +229,9 @@ class BeamTable(AttachmentTables):
     )
     shear_form: ShearForm = Field("haringx", description="how the axial force and shear meet")
     stations: BeamStations = Field(description="table along the beam, or the name of a CSV file")
+    material: Material | None = Field(
+        None, description="beside dimensions of the section: mass and stiffness follow from both"
+    )
     ends: BeamEnds = Field(BeamEnds(), description="how the ends are held")
     masses: tuple[MassTable, ...] = Field(
         (), description="parts whose mass adds to the stations' (tank, engine, lining)"
@@ -217,6 +246,7 @@ class BeamTable(AttachmentTables):
     def _check_masses(self) -> Self:
         x = self.stations.x
         check_jumps(x, self.interpolation)
+        check_material(self.stations.dimensions(), self.material, self.interpolation)
         check_on_body(self.masses, float(x[0]), float(x[-1]), self.interpolation)
         return self
 
@@ -238,30 +268,25 @@ class BeamFile(Frozen):
 
     def beam(self) -> Beam:
         """Return the beam that the file describes."""
-        table, stations = self.table, self.table.stations
-        beam = Beam.from_stations(
-            stations.x,
-            stations.mass_per_length,
-            stations.bending_stiffness,
-            stations.axial_stiffness,
-            stations.axial_force,
-            interpolation=table.interpolation,
-            ends=Ends(**table.ends.model_dump()),
-            radius_of_gyration=stations.radius_of_gyration,
-            torsional_stiffness=stations.torsional_stiffness,
-            polar_inertia_per_length=stations.polar_inertia_per_length,
-            shear_stiffness=stations.shear_stiffness,
-            rotary_inertia_per_length=stations.rotary_inertia_per_length,
-            foundation_stiffness=stations.foundation_stiffness,
-            added_mass_per_length=stations.added_mass_per_length,
-            loss_factor=stations.loss_factor,
-            theory=table.theory,
-            shear_form=table.shear_form,
-            name=table.name,
-        ).with_attachments(*table.attachments())
-        for part in table.masses:
+        beam = self._bare().with_attachments(*self.table.attachments())
+        for part in self.table.masses:
             beam = _with_part(beam, part)
-        return beam if table.loads is None else apply_loads(beam, table.loads.loads())
+        return beam if self.table.loads is None else apply_loads(beam, self.table.loads.loads())
+
+    def _bare(self) -> Beam:
+        """Return the beam without attachments, further masses and loads."""
+        table, stations = self.table, self.table.stations
+        choices: dict[str, Any] = {
+            "interpolation": table.interpolation,
+            "ends": Ends(**table.ends.model_dump()),
+            "theory": table.theory,
+            "shear_form": table.shear_form,
+            "name": table.name,
+        }
+        if table.material is None:
+            return Beam.from_stations(stations.x, **choices | stations.given(COLUMNS[1:]))
+        columns = stations.dimensions() | stations.given(OTHERS)
+        return drawn_beam(stations.x, table.material, **choices | columns)
 
 
 def _with_part(beam: Beam, part: MassTable) -> Beam:
@@ -270,7 +295,7 @@ def _with_part(beam: Beam, part: MassTable) -> Beam:
     linear = part.interpolation == "linear"
     return replace(
         beam,
-        mass_per_length=beam.mass_per_length + part.distribution().between(beam.x),
+        mass_per_length=total(beam.mass_per_length, part.distribution().between(beam.x)),
         interpolation="linear" if linear else beam.interpolation,
     )
 
@@ -287,11 +312,11 @@ def table_of_stations(path: Path) -> dict[str, Any] | None:
     if path.suffix.lower() == ".csv":
         from .station_csv import read_station_csv
 
-        return read_station_csv(path, COLUMNS)
+        return read_station_csv(path, ALL_COLUMNS)
     if path.suffix.lower() == ".xlsx":
         from .workbook import read_workbook
 
-        return read_workbook(path, COLUMNS)
+        return read_workbook(path, ALL_COLUMNS)
     return None
 
 
@@ -305,7 +330,7 @@ def beam_file_tables(path: Path, assignments: Iterable[str] = ()) -> Tables:
     """
     table = table_of_stations(path)
     if table is None:
-        return read_tables(path, assignments, "beam", COLUMNS)
+        return read_tables(path, assignments, "beam", ALL_COLUMNS)
     tables, assignments = {"beam": without_hull(table)}, tuple(assignments)
     override(tables, assignments)
     where = f"{path} (with --set)" if assignments else str(path)

@@ -118,7 +118,7 @@ def _check_axial_force(beam: Beam) -> None:
     """Refuse a force that is out of all proportion to the bending stiffness."""
     interval, fraction = np.arange(len(beam.x) - 1)[:, None], SAMPLES[None]
     N = beam.axial_force_at(interval, fraction)
-    EI = beam.at(beam.bending_stiffness, interval, fraction)
+    EI = beam.column_at("bending_stiffness", interval, fraction)
     buckled, tension = (float(v) for v in waves(N, EI, np.diff(beam.x)))
     if not buckled <= MOST_BUCKLED:
         raise InputError(

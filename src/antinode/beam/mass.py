@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from antinode.arrays import Array, Integers, Interpolation
 
+from . import curves
 from .profile import Profile
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
@@ -52,6 +53,28 @@ def moments_within(a: Any, b: Any, length: Any, s: Any, how: Interpolation) -> l
     t = np.asarray(s)[..., None] * _NODES
     m = a[..., None] * (b / a)[..., None] ** (t / np.asarray(length)[..., None])
     return [J0, *(s * np.sum(_WEIGHTS * m * power, axis=-1) for power in (t, t * t))]
+
+
+def moments_of_part(
+    m: Array, length: Array, share: Array, how: Interpolation, most: int = 2
+) -> list[Array]:
+    """Return J_0 ... J_most of the first share of intervals, about where these start.
+
+    Parameters
+    ----------
+    m : array, shape (..., 2) or (..., p + 1)
+        Mass per length at both ends, or the control values of a polynomial [kg/m].
+    length, share : array
+        Of the intervals [m], and of that what the part takes.
+    how : {"step", "linear", "log"}
+    most : int
+        0, or 2.
+    """
+    if m.shape[-1] > 2:
+        return curves.moments(m, length, share, most)
+    within = moments_within if most else mass_within
+    found = within(m[..., 0], m[..., 1], length, share * length, how)
+    return found if isinstance(found, list) else [found]
 
 
 class MassDistribution(Profile):
@@ -105,8 +128,12 @@ class MassDistribution(Profile):
         """Moments about the nose of the first `s` metres of the intervals `k`."""
         x, length = self.x[k], self.x[k + 1] - self.x[k]
         a, b = self.ends[..., k, 0], self.ends[..., k, 1]
-        J0, J1, J2 = moments_within(a, b, length, s, self.interpolation)
-        return np.stack([J0, x * J0 + J1, x * x * J0 + 2 * x * J1 + J2])
+        return np.stack(shifted(x, *moments_within(a, b, length, s, self.interpolation)))
+
+
+def shifted(x: Array, J0: Array, J1: Array, J2: Array) -> tuple[Array, Array, Array]:
+    """Return J_0, J_1, J_2 about the origin, of parts that start at `x`."""
+    return J0, x * J0 + J1, x * x * J0 + 2 * x * J1 + J2
 
 
 def state_shares(states: int, burn_fraction: Any) -> list[Any]:

@@ -46,24 +46,29 @@ def doubts(beam: Beam) -> list[str]:
     per_length = beam.mass / beam.length
     own = replace(beam, attachments=()).mass / beam.length
     pulled = list(_weight_from_clamp(beam))
-    EI = 1 / _mean_compliance(beam, beam.bending_stiffness)
+    EI = 1 / _mean_compliance(beam, "bending_stiffness")
     if beam.axial_stiffness is None:
         alone = _bending_alone(beam, np.sqrt(EI / per_length), np.sqrt(EI / own))
         return [*pulled, *alone]
-    EA = 1 / _mean_compliance(beam, beam.axial_stiffness)
+    EA = 1 / _mean_compliance(beam, "axial_stiffness")
     speeds = _wave_speed(float(np.sqrt(EA / per_length)), float(np.sqrt(EA / own)))
     return [*pulled, *speeds, *_slenderness(beam, float(np.sqrt(EI / EA)))]
 
 
-def _mean_compliance(beam: Beam, stiffness: Array) -> float:
-    return float(mean_compliance(Profile(beam.x, stiffness, beam.interpolation)))
+def _mean_compliance(beam: Beam, name: str) -> float:
+    k = np.arange(len(beam.x) - 1)
+    values = (beam.column_at(name, k, np.full(len(k), t)) for t in (0.0, 0.5, 1.0))
+    return float(_mean_of_inverse(np.diff(beam.x), *values))
 
 
 def mean_compliance(stiffness: Profile) -> Array:
     """Return the means of 1/stiffness over the length, by Simpson's rule on each interval."""
     a, b = stiffness.ends[..., 0], stiffness.ends[..., 1]
     middle = interpolated(a, b, 0.5, stiffness.interpolation)
-    h = np.diff(stiffness.x)
+    return _mean_of_inverse(np.diff(stiffness.x), a, middle, b)
+
+
+def _mean_of_inverse(h: Array, a: Array, middle: Array, b: Array) -> Array:
     return np.asarray(((1 / a + 4 / middle + 1 / b) / 6) @ h / np.sum(h))
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
+import numpy.typing as npt
 from numpy.typing import ArrayLike
 
 from antinode.arrays import Array, Integers, Interpolation
@@ -21,6 +22,26 @@ ROUNDING = 1e-12
 def interpolated(a: Any, b: Any, fraction: Any, how: Interpolation) -> Any:
     """Return what a property is at fractions 0 ... 1 between its values `a` and `b`."""
     return a * (b / a) ** fraction if how == "log" else a + (b - a) * fraction
+
+
+def kept_intervals(x: Array, how: Interpolation) -> npt.NDArray[np.bool_]:
+    """Tell which intervals of a table have a length; two rows at one x are a jump."""
+    return np.asarray((x[1:] != x[:-1]) | (how == "step"))
+
+
+def breakpoints(x: Array, kept: npt.NDArray[np.bool_]) -> Array:
+    """Return the bounds of the intervals of a table that are kept."""
+    return x if kept.all() else np.append(x[:-1][kept], x[-1:])
+
+
+def interval_ends(column: Array, kept: npt.NDArray[np.bool_], how: Interpolation) -> Array:
+    """Return a column with a row a station at both ends of the intervals, (n, 2), read-only."""
+    table = np.empty((len(kept), 2))
+    table[:, 0] = column[: len(kept)]
+    table[:, 1] = table[:, 0] if how == "step" else column[1:]
+    table = table if kept.all() else table[kept]
+    table.flags.writeable = False
+    return table
 
 
 @dataclass(frozen=True, eq=False)

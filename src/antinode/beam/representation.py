@@ -10,6 +10,7 @@ import numpy as np
 from antinode.arrays import Array, Integers
 from antinode.riccati.chain import Chain
 
+from . import curves
 from .checks import given
 from .families import FAMILIES, FamilyName
 
@@ -135,6 +136,15 @@ def _shear(stiffness: Values, force: Values, engesser: bool) -> dict[str, Values
     }
 
 
+def _over(beam: Beam, name: str, interval: Integers, start: Array, size: Array) -> Array:
+    """Return values between which a column stays in steps: at their ends, or control values."""
+    table = getattr(beam, name)
+    if table.shape[1] > 2:
+        return curves.part(table[interval], start, start + size)
+    sides = (beam.column_at(name, interval, start + side * size) for side in (0.0, 1.0))
+    return np.stack(list(sides), axis=-1)
+
+
 def coarsest_steps(beam: Beam, family: FamilyName) -> tuple[Integers, Array, Array]:
     """Divide intervals in which something varies until no step is long or steep.
 
@@ -149,12 +159,9 @@ def coarsest_steps(beam: Beam, family: FamilyName) -> tuple[Integers, Array, Arr
     varies = beam.varies(family)
     tables = [columns["mass"], columns["stiffness"], *FAMILIES[family].steep(beam)]
     for _ in range(_MOST_HALVINGS):
-        ends = [
-            [beam.column_at(name, interval, start + side * size) for side in (0.0, 1.0)]
-            for name in tables
-        ]
-        steepest = np.max([_ratio(a, b) for a, b in ends], axis=0)
-        mass, stiffness = (np.sqrt(a * b) for a, b in ends[:2])
+        parts = [_over(beam, name, interval, start, size) for name in tables]
+        steepest = np.max([_ratio(np.min(p, axis=-1), np.max(p, axis=-1)) for p in parts], axis=0)
+        mass, stiffness = (np.sqrt(p[:, 0] * p[:, -1]) for p in parts[:2])
         phase = (mass / stiffness) ** (1 / power) * np.diff(beam.x)[interval] * size
         coarse = (steepest > _STEEPEST) | (phase > _LONGEST * np.sum(phase))
         pieces = np.where(coarse & varies[interval], 2, 1)

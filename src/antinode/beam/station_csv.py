@@ -1,7 +1,8 @@
 """Stations in CSV as the table `[beam]`: a header with units, one row a station.
 
-A first line `# interpolation = "step"` says how the columns run; readers that pass over comments do
-not mind it.
+A first line `# interpolation = "step"` says how the columns run, and others like it, such as
+`# youngs_modulus = "210 GPa"`, what the material of dimensions is; readers that pass over comments
+do not mind them.
 """
 
 from __future__ import annotations
@@ -13,9 +14,12 @@ from typing import Any
 
 from antinode.inputs.reading import read_csv, read_csv_text
 
+from .sections.material import Material
+
 HULL = ("radius", "wall")
 """Columns that a vehicle's stations have besides: no beam needs them, a table keeps them."""
 _INTERPOLATION = re.compile(r'^#\s*interpolation\s*=\s*"?(step|linear|log)"?\s*$', re.MULTILINE)
+_MATERIAL = re.compile(rf"^#\s*({'|'.join(Material.model_fields)})\s*=\s*(.+?)\s*$", re.MULTILINE)
 
 
 def read_station_csv(path: Path, columns: tuple[str, ...]) -> dict[str, Any]:
@@ -27,8 +31,11 @@ def read_station_csv(path: Path, columns: tuple[str, ...]) -> dict[str, Any]:
         If it cannot be read.
     """
     table = beam_table(path, read_csv(path, (*columns, *HULL)))
-    if found := _INTERPOLATION.search(read_csv_text(path)[:2000]):
+    head = read_csv_text(path)[:2000]
+    if found := _INTERPOLATION.search(head):
         table["interpolation"] = found[1]
+    if material := {key: value.strip("\"'") for key, value in _MATERIAL.findall(head)}:
+        table["material"] = material
     return table
 
 
@@ -37,7 +44,14 @@ def beam_table(path: Path, columns: Mapping[str, list[float]]) -> dict[str, Any]
     return {"name": path.stem[:200] or "beam", "stations": dict(columns)}
 
 
+def hull_of(stations: Mapping[str, Any]) -> list[str]:
+    """Return which columns are a hull's; the wall of a section is not."""
+    drawn = {"outer_diameter", "width"} & set(stations)
+    return [name for name in HULL if name in stations and not (name == "wall" and drawn)]
+
+
 def without_hull(table: dict[str, Any]) -> dict[str, Any]:
     """Return a table `[beam]` with the stations' columns that a beam has a use for."""
     stations = table["stations"]
-    return {**table, "stations": {n: c for n, c in stations.items() if n not in HULL}}
+    hull = hull_of(stations)
+    return {**table, "stations": {n: c for n, c in stations.items() if n not in hull}}

@@ -17,6 +17,7 @@ from antinode.inputs.units import unit_factor
 from antinode.text import nearest, short
 
 from .families import FAMILIES
+from .sections.material import Material
 from .station_csv import HULL, beam_table
 
 MOST_BYTES = 20_000_000
@@ -24,7 +25,8 @@ _MOST_COLUMNS = 100
 _MOST_CELLS = 1_000_000
 ENDS = ("left", "right", "left_axial", "right_axial", "left_torsion", "right_torsion")
 LOADS = ("gravity", "offset_weight")
-KEYS = ("name", "interpolation", "theory", "shear_form", *ENDS, *LOADS)
+MATERIAL = tuple(Material.model_fields)
+KEYS = ("name", "interpolation", "theory", "shear_form", *ENDS, *LOADS, *MATERIAL)
 """Keys of the sheet `beam`."""
 ATTACHED = {
     "point_masses": {
@@ -158,7 +160,9 @@ def _head(rows: list[Row], path: Path) -> dict[str, Any]:
     for key in pairs:
         if key not in KEYS:
             raise InputError(f"{path}: sheet beam: unknown key {short(key)}; {nearest(key, KEYS)}")
-    head: dict[str, Any] = {k: v for k, v in pairs.items() if k not in (*ENDS, *LOADS)}
+    head: dict[str, Any] = {k: v for k, v in pairs.items() if k not in (*ENDS, *LOADS, *MATERIAL)}
+    if material := {key: value for key, value in pairs.items() if key in MATERIAL}:
+        head["material"] = material
     if ends := {key: value for key, value in pairs.items() if key in ENDS}:
         head["ends"] = ends
     loads: dict[str, Any] = {key: value for key, value in pairs.items() if key in LOADS}

@@ -18,11 +18,13 @@ from antinode.beam.attachments import Attachment, Dashpot, Joint, PointMass, Spr
 from antinode.beam.axial import AxialLoads, apply_loads
 from antinode.beam.beam import Beam
 from antinode.beam.families import LONGITUDINAL
-from antinode.beam.file import COLUMNS, BeamFile
+from antinode.beam.file import BeamFile
+from antinode.beam.station_csv import without_hull
 from antinode.inputs.explain import validate
 from antinode.inputs.toml_writing import toml_text
 
-from .tabulated import Hull, Stations, tabulate
+from .drawn import drawn
+from .tabulated import Hull, Stations, drawn_stations, tabulate
 
 _SAME = 1e-7  # of the largest N: what a file may differ from its beam
 KINDS: dict[type[Attachment], str] = {
@@ -69,8 +71,11 @@ def _tables(
     beam: Beam, plain: Beam, loads: dict[str, Any], hull: Hull | None
 ) -> tuple[dict[str, Any], tuple[str, ...]]:
     """Return the tables of a beam whose axial force is that of a plain one under loads."""
-    stations = tabulate(plain)
+    found = drawn(plain)
+    stations = tabulate(plain) if found is None else drawn_stations(found)
     tables = head_tables(beam, stations) | attachment_tables(beam)
+    if found is not None and found.parts:
+        tables["masses"] = found.parts
     if loads:
         tables["loads"] = loads
     return tables | {"stations": _columns(stations.with_hull(hull or {}))}, stations.notes
@@ -91,13 +96,16 @@ def _beside_weight(beam: Beam) -> tuple[Beam, dict[str, Any]]:
 def head_tables(beam: Beam, stations: Stations) -> dict[str, Any]:
     """Return name, interpolation, stations and ends."""
     ends = {key: value for key, value in vars(beam.ends).items() if value is not None}
-    return {
+    tables = {
         "name": beam.name,
         "interpolation": stations.interpolation,
         **shear_keys(beam),
         "stations": _columns(stations),
         "ends": ends,
     }
+    if stations.material is None:
+        return tables
+    return tables | {"material": stations.material.model_dump(exclude_none=True)}
 
 
 def shear_keys(beam: Beam) -> dict[str, str]:
@@ -124,7 +132,7 @@ def _split(beam: Beam) -> tuple[Beam, dict[str, Any]]:
     table = beam.axial_force
     if beam.axial_acceleration == 0:
         return beam, {}
-    jumps = np.append(table[0, 0], table[1:, 0] - table[:-1, 1])
+    jumps = np.append(table[0, 0], table[1:, 0] - table[:-1, -1])
     scale = 1e-12 * float(np.max(np.abs(table)))
     jumps[np.abs(jumps) <= scale] = 0.0
     rest = table - np.cumsum(jumps)[:, None]
@@ -158,8 +166,7 @@ def _axially_held(beam: Beam) -> set[int]:
 
 def _has_its_force(beam: Beam, tables: dict[str, Any]) -> bool:
     """Tell whether the tables, without columns of a hull, give the axial force of the beam."""
-    known = {name: c for name, c in tables["stations"].items() if name in COLUMNS}
-    again = validate(BeamFile, {"beam": {**tables, "stations": known}}, "the beam").beam()
+    again = validate(BeamFile, {"beam": without_hull(tables)}, "the beam").beam()
     k = np.arange(len(beam.x) - 1)
     wanted = beam.axial_force_at(k, np.full(len(k), 0.5))
     middle = (beam.x[:-1] + beam.x[1:]) / 2

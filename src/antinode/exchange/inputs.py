@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from antinode.beam.beam import Beam
-from antinode.beam.file import COLUMNS, BeamFile, Solve, load_beam
+from antinode.beam.file import ALL_COLUMNS, BeamFile, Solve, load_beam
 from antinode.beam.limits import check_limits
-from antinode.beam.station_csv import HULL, read_station_csv, without_hull
+from antinode.beam.station_csv import hull_of, read_station_csv, without_hull
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.override import override
@@ -157,13 +157,13 @@ def _from_nastran(path: Path, choices: Choices) -> Found:
 
 
 def _from_csv(path: Path, choices: Choices) -> Found:
-    return _with_hull(read_station_csv(path, COLUMNS), path, choices)
+    return _with_hull(read_station_csv(path, ALL_COLUMNS), path, choices)
 
 
 def _from_workbook(path: Path, choices: Choices) -> Found:
     from antinode.beam.workbook import read_workbook
 
-    return _with_hull(read_workbook(path, COLUMNS), path, choices)
+    return _with_hull(read_workbook(path, ALL_COLUMNS), path, choices)
 
 
 def _with_hull(table: dict[str, Any], path: Path, choices: Choices) -> Found:
@@ -171,7 +171,7 @@ def _with_hull(table: dict[str, Any], path: Path, choices: Choices) -> Found:
     tables = {"beam": without_hull(table)}
     found = _from_tables(tables, str(path), choices.assignments, ())
     columns = table["stations"]
-    names = [name for name in HULL if name in columns]
+    names = hull_of(columns)
     hull = {name: np.array(columns[name]) for name in ("x", *names)} if names else {}
     return replace(found, hull=hull)
 

@@ -21,7 +21,11 @@ def csv_text(stations: Stations) -> str:
     header = ",".join(f"{name} [{COLUMN_UNITS[name]}]" for name in stations.columns)
     columns: list[Array] = list(stations.columns.values())
     rows = [",".join(repr(float(c[k])) for c in columns) for k in range(len(columns[0]))]
-    return "\n".join([f'# interpolation = "{stations.interpolation}"', header, *rows]) + "\n"
+    said: dict[str, object] = {"interpolation": stations.interpolation}
+    if stations.material is not None:
+        said |= stations.material.model_dump(exclude_none=True)
+    lines = [f'# {key} = "{value}"' for key, value in said.items()]
+    return "\n".join([*lines, header, *rows]) + "\n"
 
 
 def left_out(beam: Beam) -> tuple[str, ...]:

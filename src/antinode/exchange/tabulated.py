@@ -2,13 +2,15 @@
 
 Between two rows columns run linearly, or exponentially; with "step" a row holds up to the next one.
 Where a column jumps although another one varies two rows stand at one x. Under an acceleration N(x)
-is a curve where the mass varies; there further rows are put in.
+is a curve where the mass varies; there further rows are put in. A beam that was drawn is written as
+its dimensions, and as a finer table where that does not tell all of it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,9 +18,15 @@ import numpy.typing as npt
 from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
 from antinode.beam.file import COLUMNS
+from antinode.beam.sections.material import Material
+from antinode.errors import AntinodeError
+
+from .drawn import Drawn, drawn
 
 PIECES = 16
 """Into which an interval is divided where N is a curve."""
+FINE = 64
+"""Into which it is divided where mass and stiffness are curves."""
 PROPERTIES = COLUMNS[1:]
 """Columns of a beam's stations beside x."""
 Hull = Mapping[str, Array]
@@ -36,11 +44,14 @@ class Stations:
         x and the properties, SI, by name.
     notes : tuple of str
         What the table does not hold exactly.
+    material : Material or None
+        Where the columns are dimensions of the section.
     """
 
     interpolation: Interpolation
     columns: dict[str, Array]
     notes: tuple[str, ...] = ()
+    material: Material | None = None
 
     def with_hull(self, hull: Hull) -> Stations:
         """Return the table with the columns of a hull."""
@@ -82,19 +93,67 @@ def tabulate(beam: Beam) -> Stations:
     beam : Beam
         Its attachments and ends are no part of the table.
     """
-    if _is_stepped(beam):
-        columns = {n: np.append(t[:, 0], t[-1, 0]) for n, t in _properties(beam).items()}
-        return Stations("step", {"x": beam.x, **columns})
-    curved = beam.axial_acceleration != 0 and bool(np.any(np.ptp(beam.mass_per_length, axis=1)))
+    notes = []
+    if beam.axial_acceleration != 0 and bool(np.any(np.ptp(beam.mass_per_length, axis=1))):
+        notes.append(f"N(x) is a curve: it is written as {PIECES} straight pieces an interval")
     beam = with_straight_force(beam)
-    tables = _properties(beam)
-    starts = _starts(tables, len(beam.x) - 1)
-    x = np.stack([beam.x[:-1], beam.x[1:]], axis=1)
+    found = drawn(beam)
+    if found is not None and not found.parts:
+        return replace(drawn_stations(found), notes=tuple(notes))
+    if beam.is_curved:
+        beam, note = straightened(beam)
+        notes.append(note)
+    stations = stations_of(beam.x, _properties(beam), beam.interpolation)
+    return replace(stations, notes=tuple(notes))
+
+
+def stations_of(x: Array, tables: dict[str, Array], how: Interpolation) -> Stations:
+    """Return tables (n, 2) as rows: stepped if nothing varies in any interval."""
+    if not any(np.any(t[:, 0] != t[:, 1]) for t in tables.values()):
+        columns = {n: np.append(t[:, 0], t[-1, 0]) for n, t in tables.items()}
+        return Stations("step", {"x": x, **columns})
+    starts = _starts(tables, len(x) - 1)
     kept = np.stack([starts, np.ones(len(starts), dtype=bool)], axis=1)
-    columns = {"x": x[kept], **{name: table[kept] for name, table in tables.items()}}
-    interpolation: Interpolation = "log" if beam.interpolation == "log" else "linear"
-    say = f"N(x) is a curve: it is written as {PIECES} straight pieces an interval"
-    return Stations(interpolation, columns, (say,) if curved else ())
+    places = np.stack([x[:-1], x[1:]], axis=1)
+    columns = {"x": places[kept], **{name: table[kept] for name, table in tables.items()}}
+    return Stations("log" if how == "log" else "linear", columns)
+
+
+def drawn_stations(found: Drawn) -> Stations:
+    """Return the rows of a drawing."""
+    return replace(stations_of(found.x, found.tables, "linear"), material=found.material)
+
+
+def straightened(beam: Beam) -> tuple[Beam, str]:
+    """Return a beam whose curves are straight pieces, and how much that changes it, in words."""
+    curved = np.zeros(len(beam.x) - 1, dtype=bool)
+    for name in PROPERTIES:
+        table = getattr(beam, name)
+        if table is not None:
+            curved |= np.any(table != table[:, :1], axis=1)
+    pieces = np.arange(1, FINE) / FINE
+    inside = beam.x[:-1][curved, None] + np.diff(beam.x)[curved, None] * pieces
+    finer = beam.with_breakpoints(inside.ravel().tolist())
+    tables: dict[str, Any] = {
+        n: None if (t := getattr(finer, n)) is None else t[:, [0, -1]] for n in PROPERTIES
+    }
+    straight = replace(finer, drawing=None, **tables)
+    return straight, (
+        f"mass and stiffness are curves: they are written as {FINE} straight pieces an interval, "
+        f"{_effect(beam, straight)}"
+    )
+
+
+def _effect(beam: Beam, other: Beam) -> str:
+    """Say how much the first bending frequencies of another beam differ."""
+    from antinode.modes.frequencies import natural_frequencies
+
+    try:
+        f, g = (natural_frequencies(b, 3, tolerance=1e-8).frequencies_hz for b in (beam, other))
+    except AntinodeError:
+        return "the effect of which could not be computed"
+    change = float(np.nanmax(np.abs(g / f - 1)))
+    return f"which changes its first three bending frequencies by {100 * change:.2g} % at most"
 
 
 def with_straight_force(beam: Beam) -> Beam:
@@ -108,11 +167,6 @@ def with_straight_force(beam: Beam) -> Beam:
     k = np.arange(len(beam.x) - 1)
     sides = [beam.axial_force_at(k, np.full(len(k), t)) for t in (0.0, 1.0)]
     return replace(beam, axial_force=np.stack(sides, axis=1), axial_acceleration=0.0)
-
-
-def _is_stepped(beam: Beam) -> bool:
-    tables = _properties(beam).values()
-    return beam.axial_acceleration == 0 and not any(np.any(t[:, 0] != t[:, 1]) for t in tables)
 
 
 def _properties(beam: Beam) -> dict[str, Array]:

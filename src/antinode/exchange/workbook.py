@@ -64,6 +64,7 @@ def _fill_beam(book: Any, tables: dict[str, Any]) -> None:
     _fill(book, "stations", [header, *zip(*columns.values(), strict=True)])
     head = ("name", "interpolation", "theory", "shear_form")
     pairs = [(key, tables[key]) for key in head if key in tables]
+    pairs += [*tables.get("material", {}).items()]
     pairs += [*tables["ends"].items(), *((k, v) for k, v in loads.items() if k in KEYS)]
     _fill(book, "beam", [("key", "value"), *pairs])
     attached = {"point_forces": loads.get("point_forces")} | tables

@@ -43,6 +43,14 @@ COLUMN_UNITS = {
     "foundation_stiffness": "N/m^2",
     "added_mass_per_length": "kg/m",
     "loss_factor": "",
+    "outer_diameter": "m",
+    "width": "m",
+    "height": "m",
+    "area": "m^2",
+    "second_moment": "m^4",
+    "shear_area": "m^2",
+    "polar_moment": "m^4",
+    "torsion_constant": "m^4",
 }
 _MAY_BE_INFINITE = ("shear_stiffness",)
 """SI unit of every column that a table of stations may have."""

@@ -156,10 +156,11 @@ def _rounding(solver: Backend, loaded: Chain) -> float:
 def _zeros_of_force(beam: Beam) -> list[float]:
     """Return where the tabulated axial force changes its sign inside intervals [m].
 
-    Under an acceleration the force is no straight line, and found on a grid.
+    Under an acceleration the force is no straight line, nor where it is a polynomial: a grid then.
     """
     k = np.arange(len(beam.x) - 1)
-    t = np.linspace(0.0, 1.0, 2 if beam.axial_acceleration == 0.0 else 33)
+    straight = beam.axial_acceleration == 0.0 and beam.axial_force.shape[1] == 2
+    t = np.linspace(0.0, 1.0, 2 if straight else 33)
     N = np.stack([beam.axial_force_at(k, np.full(len(k), share)) for share in t], axis=1)
     interval, i = np.nonzero(N[:, :-1] * N[:, 1:] < 0)
     a, b = N[interval, i], N[interval, i + 1]

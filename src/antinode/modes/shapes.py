@@ -209,7 +209,7 @@ def model_error_parts(beam: Beam, chain: Chain, energies: Energies) -> ModelErro
     middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2 + beam.x[0]
     k = np.clip(np.searchsorted(beam.x, middle) - 1, 0, len(beam.x) - 2)
     t = (middle - beam.x[k]) / np.diff(beam.x)[k]
-    EA = beam.at(beam.axial_stiffness, k, t)
+    EA = beam.column_at("axial_stiffness", k, t)
     if beam.radius_of_gyration is not None:
         r2 = beam.column_at("radius_of_gyration", k, t) ** 2
     else:

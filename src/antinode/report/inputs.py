@@ -12,7 +12,8 @@ from pydantic import BaseModel
 from antinode.beam.attachments import Attachment, Dashpot, Joint, PointMass, Spring, name_of
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES
-from antinode.beam.file import BeamFile
+from antinode.beam.file import ALL_COLUMNS, BeamFile
+from antinode.inputs.reading import COLUMN_UNITS
 from antinode.vehicle.case import Case
 
 from .blocks import Block, Section, Table, bullets, paragraph, table
@@ -163,25 +164,8 @@ def beam_inputs(file: BeamFile, beam: Beam) -> list[Section]:
     """Return ends, stations, parts, loads and what is attached."""
     table_, stations = file.table, file.table.stations
     ends = beam.ends
-    named = (
-        ("x", "m"),
-        ("mass_per_length", "kg/m"),
-        ("bending_stiffness", "N m^2"),
-        ("axial_stiffness", "N"),
-        ("axial_force", "N"),
-        ("radius_of_gyration", "m"),
-        ("torsional_stiffness", "N m^2"),
-        ("polar_inertia_per_length", "kg m"),
-        ("shear_stiffness", "N"),
-        ("rotary_inertia_per_length", "kg m"),
-        ("foundation_stiffness", "N/m²"),
-        ("added_mass_per_length", "kg/m"),
-        ("loss_factor", ""),
-    )
     columns = [
-        (name, unit, np.asarray(getattr(stations, name)))
-        for name, unit in named
-        if getattr(stations, name) is not None
+        (name, COLUMN_UNITS[name], column) for name, column in stations.given(ALL_COLUMNS).items()
     ]
     sides = [
         (side, *(ends.of(family)[k] for family in FAMILIES))
@@ -194,6 +178,7 @@ def beam_inputs(file: BeamFile, beam: Beam) -> list[Section]:
         ),
         table("Ends.", ("end", *_END_HEADS), sides, left=(0, 1, 2, 3)),
         station_table("Stations, as given.", columns),
+        *_material(file),
         *_loads_and_parts(file),
         *attachment_tables(beam.attachments),
     ]
@@ -202,6 +187,13 @@ def beam_inputs(file: BeamFile, beam: Beam) -> list[Section]:
 
 _END_HEADS = ("laterally", "axially", "about the axis")
 """How an end is held in each family."""
+
+
+def _material(file: BeamFile) -> Iterator[Block]:
+    if file.table.material is not None:
+        yield _keys(
+            "Material; mass and stiffness follow from it and the section.", file.table.material
+        )
 
 
 def _loads_and_parts(file: BeamFile) -> Iterator[Block]:

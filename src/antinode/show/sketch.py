@@ -47,7 +47,7 @@ def draw_beam(beam: Beam, axes: Axes) -> None:
 
 def _thickness(beam: Beam) -> np.ndarray:
     """Return half the height of the sketch at both ends of every interval."""
-    size = np.log(beam.bending_stiffness.ravel())
+    size = np.log(beam.bending_stiffness[:, [0, -1]].ravel())
     low, high = float(size.min()), float(size.max())
     share = (size - low) / (high - low) if high - low > 1e-9 else np.full(len(size), 0.5)
     return np.asarray(_THIN + (_THICK - _THIN) * share)

@@ -78,8 +78,8 @@ def static_shape(case: Case) -> StaticShape:
     h = np.diff(x)
     N = _mean(lambda s: beam.axial_force_at(k, t + s * h / np.diff(beam.x)[k]))
     inverse_EI, inverse_EA = (
-        _mean(lambda s, table=table: 1 / beam.at(table, k, t + s * h / np.diff(beam.x)[k]))
-        for table in (beam.bending_stiffness, _axial_stiffness(beam))
+        _mean(lambda s, name=name: 1 / beam.column_at(name, k, t + s * h / np.diff(beam.x)[k]))
+        for name in ("bending_stiffness", "axial_stiffness")
     )
     Q = case.loads.shear_force(x, "right")[:-1], case.loads.shear_force(x, "left")[1:]
     theta, moment = _slope(h, N, inverse_EI, *Q)
@@ -149,11 +149,6 @@ def _diverging(h: Array, N: Array, inverse_EI: Array) -> int:
         pivot = (a - b * b / pivot) or 1e-300
         count += pivot < 0
     return count
-
-
-def _axial_stiffness(beam: Beam) -> Array:
-    assert beam.axial_stiffness is not None  # every vehicle has one
-    return beam.axial_stiffness
 
 
 def _grid(beam: Beam) -> tuple[Array, np.ndarray, Array]:

@@ -90,7 +90,7 @@ def _beam(
         tables = {name: tables[name] for name in tables if name not in (GJ, INERTIA)}
         held, items = without(held, items)
     ends = ends_of(held, len(line.x) - 1)
-    tapered = any(np.any(t[:, 0] != t[:, 1]) for t in tables.values())
+    tapered = any(np.any(t[:, :-1] != t[:, 1:]) for t in tables.values())
     columns: dict[str, Any] = {n: table / _unit(n, system) for n, table in tables.items()}
     beam = Beam(
         x / system.length,

@@ -166,6 +166,12 @@ def _more_force(file: BeamFile, s: float) -> Beam:
 def _heavier(file: BeamFile, s: float) -> Beam:
     """Return the beam with more mass per length; its weight, where there is any, goes along."""
     table = file.table
+    if table.material is not None:
+        return _with_table(
+            file,
+            material=_scaled(table.material, s, "density"),
+            masses=tuple(_scaled(part, s, "mass_per_length") for part in table.masses),
+        )
     stations = _scaled(table.stations, s, "mass_per_length")
     parts = tuple(_scaled(part, s, "mass_per_length") for part in table.masses)
     return _with_table(file, stations=stations, masses=parts)
