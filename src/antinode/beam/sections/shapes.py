@@ -184,8 +184,8 @@ class Box:
     def torsion_constant(self, w: Any, h: Any, t: Any) -> Any:
         """Return Bredt's closed cell, 4 A_m^2 t/s: A_m and s of the middle line.
 
-        For thin walls: 1 % low at t = w/20 of a square, 3 % at w/10 (compared with St Venant's
-        problem solved by finite elements).
+        For thin walls: of a square with sharp corners it is 0.5 % low at t = w/100, 2.5 % at w/20,
+        5.5 % at w/10 (St Venant's problem by finite elements).
         """
         b, a = w - t, h - t
         return 2 * t * (a * b) ** 2 / (a + b)
