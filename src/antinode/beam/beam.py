@@ -31,7 +31,6 @@ from .attachments import (
     Attachment,
     Joint,
     PointMass,
-    beside_joints,
     check_attachments,
     gather,
     on_beam,
@@ -47,10 +46,11 @@ from .checks import (
     given,
 )
 from .ends import FREE, Ends
-from .families import FAMILIES, FamilyName, tells
+from .families import BENDING, FAMILIES, FamilyName, tells
 from .mass import moments_of_part, shifted
 from .profile import breakpoints, interpolated, interval_ends, kept_intervals
 from .representation import make_chain
+from .reversal import reversed_beam
 
 if TYPE_CHECKING:
     from .sections.drawing import Drawing
@@ -105,6 +105,9 @@ class Beam(ByValue):
     offset_weight : bool
         Whether the part of N that the axial acceleration makes of an offset point mass acts
         through its own centre, and so bends the beam when it turns.
+    end_force : tuple of float, optional
+        The forces at the left and right end of which `ends` lets a share turn [N], compression
+        positive; by default N there, outside what is attached to the end.
     name : str
     drawing : Drawing, optional
         What mass and stiffness follow from (`beam.sections`), for those who show or write the beam;
@@ -141,6 +144,7 @@ class Beam(ByValue):
     shear_form: ShearForm = "haringx"
     attachments: tuple[Attachment, ...] = ()
     offset_weight: bool = True
+    end_force: tuple[float, float] | None = None
     name: str = "beam"
     drawing: Drawing | None = None
 
@@ -257,9 +261,9 @@ class Beam(ByValue):
     def with_breakpoints(self, positions: Sequence[float]) -> Beam:
         """Return the same beam with breakpoints at the given positions [m] as well."""
         inside = [p for p in positions if np.min(np.abs(self.x - p)) > 1e-12 * self.length]
-        return self._cut_at(inside) if inside else self
+        return self.cut_at(inside) if inside else self
 
-    def _cut_at(self, inside: Sequence[float]) -> Beam:
+    def cut_at(self, inside: Sequence[float]) -> Beam:
         """Return the same beam with breakpoints at places inside intervals [m] as well."""
         x = np.union1d(self.x, inside)
         k = np.clip(np.searchsorted(self.x, (x[1:] + x[:-1]) / 2) - 1, 0, len(self.x) - 2)
@@ -342,7 +346,8 @@ class Beam(ByValue):
 
     def without_axial_force(self) -> Beam:
         """Return the same beam with N = 0 everywhere."""
-        return replace(self, axial_force=np.zeros_like(self.axial_force), axial_acceleration=0.0)
+        none = np.zeros_like(self.axial_force)
+        return replace(self, axial_force=none, axial_acceleration=0.0, end_force=None)
 
     def reversed(self) -> Beam:
         """Return the beam read from the other end.
@@ -355,43 +360,7 @@ class Beam(ByValue):
         InputError
             If it accelerates.
         """
-        if self.axial_acceleration:
-            raise InputError("a beam under acceleration cannot be reversed: tabulate N(x) instead")
-        sides = beside_joints(self.attachments)
-        if sides:
-            return self._with_sides(sides)._turned()
-        return self._turned()
-
-    def _with_sides(self, joints: Sequence[float]) -> Beam:
-        """Return the beam with what moves with the left side of joints just left of them."""
-        gap = 64 * np.finfo(float).eps * max(abs(self.x[0]), abs(self.x[-1]))
-        moved = {x: x - gap for x in joints}
-        items = (
-            item if isinstance(item, Joint) else replace(item, x=moved.get(item.x, item.x))
-            for item in self.attachments
-        )
-        return replace(self._cut_at(list(moved.values())), attachments=tuple(items))
-
-    def _turned(self) -> Beam:
-        flip: dict[str, Any] = {
-            name: None if (v := getattr(self, name)) is None else v[::-1, ::-1].copy()
-            for name in TABLES
-        }
-        total = self.x[-1] + self.x[0]
-        items: list[Attachment] = []
-        for item in self.attachments:
-            turned = replace(item, x=total - item.x)
-            if isinstance(turned, PointMass):
-                turned = replace(turned, offset=-turned.offset)
-            items.append(turned)
-        return replace(
-            self,
-            x=total - self.x[::-1],
-            ends=self.ends.reversed(),
-            attachments=tuple(items[::-1]),
-            drawing=self.drawing and self.drawing.reversed(),
-            **flip,
-        )
+        return reversed_beam(self)
 
     @property
     def families(self) -> tuple[FamilyName, ...]:
@@ -427,6 +396,25 @@ class Beam(ByValue):
         Chain
         """
         return make_chain(self, family, refinement)
+
+    def following(self, family: FamilyName = BENDING) -> tuple[float, float]:
+        """Return the part of the force at either end that turns with it [N].
+
+        It is a share of N outside what is attached to the end.
+        """
+        shares = self.ends.follow
+        if not FAMILIES[family].law.has_axial_force or not any(shares):
+            return 0.0, 0.0
+        outside = self.end_forces
+        return shares[0] * outside[0], shares[1] * outside[1]
+
+    @property
+    def end_forces(self) -> tuple[float, float]:
+        """The forces at both ends [N], outside what is attached there."""
+        if self.end_force is not None:
+            return self.end_force
+        table, a = self.axial_force, self.axial_acceleration
+        return float(table[0, 0]), float(table[-1, 1]) + a * self.mass
 
     def points(
         self, family: FamilyName, first: Integers | None = None

@@ -13,6 +13,7 @@ from antinode.errors import InputError
 from antinode.text import counted
 
 from .attachments import check_attachments, check_supports_apart, held_places
+from .ends import check_follower
 from .families import FAMILIES, FamilyName
 
 if TYPE_CHECKING:
@@ -41,6 +42,8 @@ def check(beam: Beam) -> None:
     if beam.attachments:
         check_attachments(beam.attachments, beam.x)
         _check_supports(beam)
+    if any(beam.ends.follow):
+        _check_followers(beam)
     for item in beam.attachments:
         if np.min(np.abs(beam.x - item.x)) > 1e-9 * beam.length:
             raise InputError(
@@ -115,6 +118,14 @@ def _check_supports(beam: Beam) -> None:
     ends = zip((beam.ends.left, beam.ends.right), beam.x[[0, -1]].tolist(), strict=True)
     held = [x for end, x in ends if end in ("pinned", "clamped")]
     check_supports_apart([*held, *held_places(beam.attachments)], beam.x)
+
+
+def _check_followers(beam: Beam) -> None:
+    """Refuse a force that follows an end which a support holds."""
+    held = held_places(beam.attachments)
+    for side, share, x in zip(("left", "right"), beam.ends.follow, beam.x[[0, -1]], strict=True):
+        if share and any(abs(place - x) <= 1e-9 * beam.length for place in held):
+            check_follower(f"{side}_follower", share, "held by a support")
 
 
 def _check_table(name: str, values: Array, n: int) -> None:

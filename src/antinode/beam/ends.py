@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from antinode.arguments import choice
+from antinode.arguments import choice, numbers
+from antinode.errors import InputError
 
 from .families import FAMILIES, FamilyName
 
@@ -29,11 +30,15 @@ class Ends:
         Default: fixed for clamped and pinned ends, else free.
     left_torsion, right_torsion : {"free", "fixed"}, optional
         Default: fixed for clamped ends, else free.
+    left_follower, right_follower : float
+        Share of the axial force at this free end, 0 to 1, that turns with the end's section as a
+        fixed nozzle's thrust does: there ``Q = share * N * psi``. By default all of it keeps its
+        direction.
 
     Raises
     ------
     InputError
-        If a word is not one of these.
+        If a word is not one of these, or a share is outside 0 ... 1 or at an end that is not free.
     """
 
     left: End = "free"
@@ -42,12 +47,24 @@ class Ends:
     right_axial: AxialEnd | None = None
     left_torsion: TorsionEnd | None = None
     right_torsion: TorsionEnd | None = None
+    left_follower: float = 0.0
+    right_follower: float = 0.0
 
     def __post_init__(self) -> None:
+        for name, end in (("left_follower", self.left), ("right_follower", self.right)):
+            object.__setattr__(self, name, _share(name, getattr(self, name)))
+            check_follower(name, getattr(self, name), end)
         for name, value in vars(self).items():
+            if name in _FOLLOWERS:
+                continue
             sideways = name in ("left", "right")
             if sideways or value is not None:
                 choice(f"the end {name}", value, End if sideways else AxialEnd)
+
+    @property
+    def follow(self) -> tuple[float, float]:
+        """Shares of the forces at both ends that turn with them."""
+        return self.left_follower, self.right_follower
 
     def of(self, name: FamilyName) -> tuple[str, str]:
         """Return the two ends as the solver names them for a family of modes."""
@@ -59,9 +76,32 @@ class Ends:
 
     def reversed(self) -> Ends:
         """Return the ends of the beam read from its other end."""
-        names = [family.ends for family in FAMILIES.values()]
+        names = [*(family.ends for family in FAMILIES.values()), _FOLLOWERS]
         turned = {a: getattr(self, b) for pair in names for a, b in (pair, pair[::-1])}
         return Ends(**turned)
+
+
+_FOLLOWERS = "left_follower", "right_follower"
+
+
+def _share(name: str, value: float) -> float:
+    share = float(numbers(name, value))
+    if not 0 <= share <= 1:
+        raise InputError(
+            f"{name} is {share:g}; allowed is 0 (the force keeps its direction) to 1 (it turns "
+            "with the end)"
+        )
+    return share
+
+
+def check_follower(name: str, share: float, end: str) -> None:
+    """Raise InputError where a force follows an end that is not free."""
+    if share and end != "free":
+        side = name.partition("_")[0]
+        raise InputError(
+            f"{name} is {share:g}, but the {side} end is {end}; a force turns with a free end "
+            "only: set it to 0 or leave it out"
+        )
 
 
 FREE = Ends()

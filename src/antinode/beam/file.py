@@ -60,6 +60,9 @@ COLUMNS = (
 ALL_COLUMNS = (*COLUMNS, *DIMENSIONS)
 
 
+Share = Annotated[Number, Field(ge=0, le=1)]
+
+
 class Solve(Frozen):
     """What to compute, and how well."""
 
@@ -98,6 +101,23 @@ class BeamEnds(Frozen):
     right_torsion: TorsionEnd | None = Field(
         None, description="how the right end is held about the axis; fixed if clamped, else free"
     )
+    left_follower: Share = Field(
+        0.0, description="share of N at the free left end that turns with its section, 0 to 1"
+    )
+    right_follower: Share = Field(
+        0.0, description="share of N at the free right end that turns with its section, 0 to 1"
+    )
+
+    @model_validator(mode="after")
+    def _check_followers(self) -> Self:
+        for side in ("left", "right"):
+            end, name = getattr(self, side), f"{side}_follower"
+            if getattr(self, name) and end != "free":
+                raise ValueError(
+                    f"{name} is {getattr(self, name):g}, but {side} is '{end}'; a force turns with "
+                    "a free end only: set it to 0 or leave it out"
+                )
+        return self
 
 
 class BeamStations(SectionColumns):

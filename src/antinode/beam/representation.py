@@ -56,7 +56,7 @@ def make_chain(
         k, left_end = np.arange(len(beam.x) - 1), np.zeros(len(beam.x) - 1)
         columns = {name: np.array(v(k, left_end)) for name, v in values.items()}
         left, right, points = beam.points(family)
-        return Chain(law, np.diff(beam.x), columns, left, right, points)
+        return Chain(law, np.diff(beam.x), columns, left, right, points, beam.following(family))
     cell, start, size = coarsest_steps(beam, family)
     times = np.where(varies[cell], refinement, 1)
     which, number = copies(times)
@@ -76,7 +76,7 @@ def make_chain(
     flexibility = average(lambda k, t: 1.0 / EI(k, t))
     columns = {name: average(of) for name, of in values.items()} | {"stiffness": 1.0 / flexibility}
     left, right, points = beam.points(family, first)
-    return Chain(law, length, columns, left, right, points)
+    return Chain(law, length, columns, left, right, points, beam.following(family))
 
 
 def _values(beam: Beam, family: FamilyName, loss: float | None = None) -> dict[str, Values]:

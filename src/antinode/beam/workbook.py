@@ -23,7 +23,10 @@ from .station_csv import HULL, beam_table
 MOST_BYTES = 20_000_000
 _MOST_COLUMNS = 100
 _MOST_CELLS = 1_000_000
-ENDS = ("left", "right", "left_axial", "right_axial", "left_torsion", "right_torsion")
+ENDS = (
+    *("left", "right", "left_axial", "right_axial", "left_torsion", "right_torsion"),
+    *("left_follower", "right_follower"),
+)
 LOADS = ("gravity", "offset_weight")
 MATERIAL = tuple(Material.model_fields)
 KEYS = ("name", "interpolation", "theory", "shear_form", *ENDS, *LOADS, *MATERIAL)

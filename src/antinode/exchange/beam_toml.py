@@ -95,7 +95,7 @@ def _beside_weight(beam: Beam) -> tuple[Beam, dict[str, Any]]:
 
 def head_tables(beam: Beam, stations: Stations) -> dict[str, Any]:
     """Return name, interpolation, stations and ends."""
-    ends = {key: value for key, value in vars(beam.ends).items() if value is not None}
+    ends = {key: value for key, value in vars(beam.ends).items() if value not in (None, 0.0)}
     tables = {
         "name": beam.name,
         "interpolation": stations.interpolation,

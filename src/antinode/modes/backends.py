@@ -70,7 +70,9 @@ class Backend(Protocol):
         """Solve a beam with steps halved until they agree; None if that is not its own to do."""
         ...
 
-    def mode_states(self, chain: Chain, omega2: Array, multiplicity: Integers, /) -> Array:
+    def mode_states(
+        self, chain: Chain, omega2: Array, multiplicity: Integers, /, *, adjoint: bool = False
+    ) -> Array:
         """Return the states of modes at every node, shape (n + 1, k, s)."""
         ...
 

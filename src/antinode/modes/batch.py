@@ -24,6 +24,7 @@ from antinode.riccati.chains import ChainRoots, Chains
 from antinode.riccati.reasons import (
     BY_ITSELF,
     CLUSTERED,
+    FLUTTERS,
     INVALID,
     NOT_BRACKETED,
     NOT_FINITE,
@@ -35,6 +36,7 @@ from antinode.riccati.shapes import split_for
 
 from .backends import Backend, BackendName, choose
 from .brackets import ROUNDING, cancelling, share_brackets
+from .following import eigenvalues_alone, two_sided_energies
 from .guesses import guess_omega2
 from .hertz import error_hz, hertz
 from .rigid import elastic, rigid_modes_of, translates, zeros_of
@@ -47,6 +49,7 @@ REASONS = (
     "invalid: length, mass and stiffness must be positive, and everything finite",
     "not certified: modes too close to each other for the counts between them",
     "past buckling: omega^2 of the first mode is negative",
+    "flutter: a pair of modes grows while it oscillates",
 )
 """What the codes in `BatchResult.reason` mean; 0 is success."""
 
@@ -75,6 +78,9 @@ class BeamBatch(ByValue):
         `mass_per_length` and `axial_stiffness`, torsion the last two.
     axial_stiffness, torsional_stiffness, polar_inertia_per_length : array, (n,) or (beams, n)
         EA [N], GJ [N m^2] and rho I_p [kg m].
+    end_force : array, shape (2,) or (beams, 2), optional
+        The forces at both ends of which `ends` lets a share turn with the end [N]; by default N of
+        the first and the last segment.
 
     Raises
     ------
@@ -98,6 +104,7 @@ class BeamBatch(ByValue):
     axial_stiffness: Array | None = None
     torsional_stiffness: Array | None = None
     polar_inertia_per_length: Array | None = None
+    end_force: Array | None = None
     _one_structure: bool = field(default=False, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -256,14 +263,16 @@ def _settle(solver: Backend, batch: BeamBatch, found: ChainRoots) -> None:
     reason[(reason == 0) & ~np.isfinite(high).all(axis=1)] = NOT_FINITE
     for row in np.flatnonzero(np.isin(reason, _ALONE)):
         reason[row] = _alone(solver, batch, int(row), found)
-    failed = reason != 0
+    failed = (reason != 0) & (reason != FLUTTERS)
     omega2[failed], low[failed], high[failed], counts[failed] = np.nan, np.nan, np.nan, -1
-    reason[omega2[:, 0] < 0] = PAST_BUCKLING
+    reason[(omega2[:, 0] < 0) & (reason != FLUTTERS)] = PAST_BUCKLING
 
 
 def _solve(solver: Backend, batch: BeamBatch) -> ChainRoots:
     """Solve chain after chain; where loads alone vary, by guesses from a few of them."""
     below, chains = rigid_modes_of(batch.ends, batch.family), _chains(batch)
+    if chains.following is not None:
+        return ChainRoots.empty(len(chains), batch.modes, BY_ITSELF)
     guess = None
     if batch._one_structure and solver.name != "numpy":
         guess = guess_omega2(chains.axial_force, lambda N: _exact(batch, N))
@@ -285,7 +294,17 @@ def _chains(batch: BeamBatch) -> Chains:
     columns = {name: getattr(batch, table) for name, table in family.columns.items()}
     m, stiffness = columns["mass"], columns["stiffness"]
     N = columns["axial_force"] if family.law.has_axial_force else np.zeros(m.shape)
-    return Chains(family.law, batch.length, m, stiffness, N, *batch.ends.of(batch.family))
+    ends = batch.ends.of(batch.family)
+    return Chains(family.law, batch.length, m, stiffness, N, *ends, _following(batch, N))
+
+
+def _following(batch: BeamBatch, N: Array) -> Array | None:
+    """Return what turns with the ends of every beam [N], None where nothing does."""
+    shares = np.array(batch.ends.follow)
+    if not shares.any() or not FAMILIES[batch.family].law.has_axial_force:
+        return None
+    outside = N[:, [0, -1]] if batch.end_force is None else batch.end_force
+    return np.ascontiguousarray(np.broadcast_to(shares * outside, (len(N), 2)))
 
 
 def _exact(batch: BeamBatch, force: Array) -> Array:
@@ -308,19 +327,20 @@ def _alone(solver: Backend, batch: BeamBatch, row: int, results: ChainRoots) -> 
         return INVALID
     zeros = zeros_of(batch.ends, chain)
     try:
-        found = solver.find_eigenvalues(chain, below + batch.modes, zeros=zeros, width=_WIDTH)
+        found = eigenvalues_alone(solver, chain, below + batch.modes, zeros, _WIDTH)
         if not check_certificate(found):
             return NOT_BRACKETED
-        wanted = elastic(found, below)[: batch.modes]
+        wanted = elastic(found, below, chain)[: batch.modes]
         rounding = _rounding_by_shapes(solver, chain, wanted)
     except FloatingPointError:
         return OUT_OF_REACH
     except (CountingError, ArithmeticError):
         return NOT_BRACKETED
-    results.omega2[row] = [v.omega2 for v in wanted]
-    results.low[row], results.high[row] = np.transpose([v.bracket for v in wanted])
+    moved = np.array([v.order - v.omega2 for v in wanted])
+    results.omega2[row] = [v.order for v in wanted]
+    results.low[row], results.high[row] = np.transpose([v.bracket for v in wanted]) + moved
     results.counts[row], results.rounding[row] = [v.counts for v in wanted], rounding
-    return 0
+    return FLUTTERS if moved.any() else 0
 
 
 def _is_valid(chain: Chain) -> bool:
@@ -332,8 +352,12 @@ def _is_valid(chain: Chain) -> bool:
 
 def _rounding_by_shapes(solver: Backend, chain: Chain, found: list[Eigenvalue]) -> Array:
     """Return the rounding of omega^2 [rad^2/s^2]: small against the energies that make it."""
-    omega2 = np.array([value.omega2 for value in found])
+    omega2 = np.array([value.value for value in found])
+    fine = split_for(chain, np.abs(omega2))
+    if chain.follows:
+        one = np.ones(len(found), np.int64)
+        both = two_sided_energies(solver, fine, solver.mode_states(fine, omega2, one), omega2)
+        return np.asarray(ROUNDING * cancelling(both.size.real, np.abs(both.mass), omega2))
     together = np.array([sum(other.bracket == v.bracket for other in found) for v in found])
-    fine = split_for(chain, omega2)
     energies = solver.mode_energies(fine, solver.mode_states(fine, omega2, together), omega2)
     return ROUNDING * cancelling(energies.size, energies.mass, omega2)

@@ -21,7 +21,7 @@ import numpy as np
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
-from antinode.errors import ComputationError
+from antinode.errors import ComputationError, InputError
 from antinode.riccati.bracket import Sample, narrow
 from antinode.riccati.chain import Chain
 from antinode.riccati.shapes import Energies, energies, split_for
@@ -96,6 +96,12 @@ def buckling(
     ComputationError
         If the tolerance is out of reach.
     """
+    if any(beam.following()):
+        raise InputError(
+            "the force of an end turns with it: counts of negative eigenvalues, which find the "
+            "buckling load of fixed directions, do not hold then; set left_follower and "
+            "right_follower to 0 for that load"
+        )
     beam = beam.with_breakpoints(_zeros_of_force(beam))
     solver, rigid = choose(backend), rigid_modes(beam, BENDING)
     factors = _range_of_factors(beam)

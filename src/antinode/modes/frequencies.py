@@ -154,7 +154,7 @@ def _by_modes(beam: Beam, modes: int, tolerance: float, backend: BackendName) ->
 
 def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Frequencies | None:
     """Solve with steps halved until two extrapolated results agree; None where that fails."""
-    if beam.is_curved or FAMILIES[BENDING].used(beam):
+    if beam.is_curved or FAMILIES[BENDING].used(beam) or any(beam.following()):
         return None
     held: tuple[str, str, tuple[Point, ...]] = beam.ends.left, beam.ends.right, ()
     rigid, acceleration, mass_left = rigid_modes_of(beam.ends, BENDING), 0.0, _NOT_READ

@@ -8,12 +8,12 @@ from itertools import pairwise
 import numpy as np
 
 from antinode.beam.beam import Beam
-from antinode.beam.families import FamilyName
+from antinode.beam.families import BENDING, FamilyName
 from antinode.riccati.roots import Eigenvalue
 
 from .brackets import share_brackets
 from .result import Mode
-from .rigid import exact_zeros, rigid_modes
+from .rigid import exact_zeros, nearest_to_rotation, pivot_of, rigid_modes
 
 
 def name_modes(
@@ -27,13 +27,21 @@ def name_modes(
         names[k] = (f"rigid {name}", 0)
         rigid.remove(name)
     for name in rigid:  # a rotation that the axial force moves off zero is the lowest of the rest
-        names[names.index(None)] = (f"rigid {name}", 0)
+        rest = [k for k, given in enumerate(names) if given is None]
+        k = rest[0] if not any(beam.following(family)) else _nearest(beam, eigenvalues, rest)
+        names[k] = (f"rigid {name}", 0)
     number = 0
     for k, given in enumerate(names):
         if given is None:
             number += 1
             names[k] = (f"{family} {number}", number)
     return [name for name in names if name is not None]
+
+
+def _nearest(beam: Beam, eigenvalues: list[Eigenvalue], rest: list[int]) -> int:
+    """Return which eigenvalue is the rotation where end forces follow: as of a rigid body."""
+    some = [eigenvalues[k] for k in rest]
+    return rest[nearest_to_rotation(some, beam.chain(BENDING), pivot_of(beam))]
 
 
 def with_joint_brackets(modes: list[Mode]) -> list[Mode]:

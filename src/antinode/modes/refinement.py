@@ -7,8 +7,9 @@ the extrapolated value, and the error of that.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -19,8 +20,9 @@ from antinode.riccati.chain import Chain, omega2_scale
 from antinode.riccati.convergence import extrapolate, within
 from antinode.riccati.roots import Eigenvalue
 
+from .following import certifying
 from .rigid import exact_zeros, rigid_modes
-from .solvers import Solver
+from .solvers import Found, Solver
 
 NEAR_ZERO = 1e-9  # of the chain's own omega^2: what lies below is as good as zero
 _MOST_SEGMENTS = 100_000
@@ -122,6 +124,8 @@ class Solved:
     discretisation: Array
     """Of omega^2 [rad^2/s^2]; NaN where the solver proves nothing."""
     warnings: list[str]
+    certificate: Mapping[str, Any]
+    """What proves the list, as JSON has it."""
 
 
 def solve_family(
@@ -131,22 +135,22 @@ def solve_family(
     wanted = modes + len(rigid_modes(beam, family))
     zeros = exact_zeros(beam, family)
     most = max(min(_MOST_SEGMENTS, _MOST_WORK // wanted), _LEAST_PER_MODE * wanted)
-    counting, first = solver.counting, max(1, wanted // _MODES_PER_REFINEMENT)
+    counting, first = certifying(solver, beam, family), max(1, wanted // _MODES_PER_REFINEMENT)
 
-    def solve(chain: Chain, expected: Array | None = None) -> list[Eigenvalue]:
-        return counting.find(chain, wanted, zeros=zeros, expected=expected).eigenvalues
+    def solve(chain: Chain, expected: Array | None = None) -> Found:
+        return counting.find(chain, wanted, zeros=zeros, expected=expected)
 
     if not np.any(beam.varies(family)):
         chain = beam.chain(family)
-        eigenvalues = solve(chain)
-        error, warnings = np.zeros(len(eigenvalues)), list[str]()
+        found = solve(chain)
+        error, warnings = np.zeros(len(found.eigenvalues)), list[str]()
     else:
-        chain, eigenvalues, error, warnings = _refine(beam, family, first, tolerance, most, solve)
-    if solver is counting:
-        return Solved(chain, eigenvalues, error, warnings)
-    found = solver.find(chain, wanted, zeros=zeros)
-    unknown = np.full(len(found.eigenvalues), np.nan)
-    return Solved(chain, found.eigenvalues, unknown, [*warnings, *found.warnings])
+        chain, found, error, warnings = _refine(beam, family, first, tolerance, most, solve)
+    if solver is not solver.counting:
+        found = solver.find(chain, wanted, zeros=zeros)
+        error = np.full(len(found.eigenvalues), np.nan)
+    warnings = [*warnings, *found.warnings]
+    return Solved(chain, found.eigenvalues, error, warnings, found.certificate)
 
 
 def _refine(
@@ -155,20 +159,20 @@ def _refine(
     refinement: int,
     tolerance: float,
     most: int,
-    solve: Callable[[Chain, Array | None], list[Eigenvalue]],
-) -> tuple[Chain, list[Eigenvalue], Array, list[str]]:
-    """Return the finest chain that was needed, its eigenvalues, their errors, and warnings."""
+    solve: Callable[[Chain, Array | None], Found],
+) -> tuple[Chain, Found, Array, list[str]]:
+    """Return the finest chain that was needed, what was found, errors, and warnings."""
     smooth = not np.any(beam.without_axial_force().varies(family))
     chain = beam.chain(family, refinement)
     few = smooth and layer_length(chain) < _FEW
     levels = Refinement(tolerance, few, least=NEAR_ZERO * omega2_scale(chain))
     before = np.inf
     while True:
-        eigenvalues = solve(chain, levels.expected)
-        levels.add(_omega2(eigenvalues), layer_length(chain, varying_segments(beam, chain)))
+        found = solve(chain, levels.expected)
+        levels.add(_numbers(found.eigenvalues), layer_length(chain, varying_segments(beam, chain)))
         error = levels.error_of_last
         if levels.met(error):
-            return chain, eigenvalues, error, []
+            return chain, found, _of_pairs(found.eigenvalues, error), []
         relative = levels.relative(error)
         noise = relative < NEAR_ZERO and relative > before / 4
         if noise or (2 * len(chain.length) > most and np.isfinite(relative)):
@@ -176,10 +180,20 @@ def _refine(
                 f"{family}: {len(chain.length)} segments do not reach the tolerance "
                 f"{tolerance:g}; see the errors, or ask for fewer modes or a larger tolerance"
             )
-            return chain, eigenvalues, error, [warning]
+            return chain, found, _of_pairs(found.eigenvalues, error), [warning]
         refinement, before = 2 * refinement, relative
         chain = beam.chain(family, refinement)
 
 
-def _omega2(eigenvalues: list[Eigenvalue]) -> Array:
-    return np.array([value.omega2 for value in eigenvalues])
+def _numbers(eigenvalues: list[Eigenvalue]) -> Array:
+    """Return omega^2; of a complex pair the real part, and for its second one the imaginary."""
+    return np.array([-v.imaginary if v.imaginary < 0 else v.omega2 for v in eigenvalues])
+
+
+def _of_pairs(eigenvalues: list[Eigenvalue], error: Array) -> Array:
+    """Return errors of omega^2; both of a pair have that of the real and the imaginary part."""
+    found = error.copy()
+    for k, value in enumerate(eigenvalues[1:], 1):
+        if value.imaginary < 0:
+            found[k - 1 : k + 1] = np.hypot(error[k - 1], error[k])
+    return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -13,7 +14,7 @@ from antinode.arguments import ByValue, choice, numbers
 from antinode.arrays import Array
 from antinode.beam.attachments import attachment_dict
 from antinode.beam.beam import Beam
-from antinode.beam.families import BENDING, FamilyName
+from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.errors import InputError
 from antinode.riccati.chain import Chain
 from antinode.riccati.shapes import propagate
@@ -25,7 +26,7 @@ from .hertz import error_hz, error_of_root, growth_rate, hertz
 if TYPE_CHECKING:
     import xarray
 
-Kind = Literal["rigid", "elastic", "divergent"]
+Kind = Literal["rigid", "elastic", "divergent", "flutter"]
 Method = Literal["riccati", "tmm"]
 Normalisation = Literal["amplitude", "mass"]
 
@@ -34,7 +35,7 @@ NOT_MODELLED = (
     "added mass of wetted parts",
     "damping",
     "shell modes of the wall",
-    "end forces that turn with the body (follower thrust)",
+    "control of the thrust's direction",
 )
 """What the model leaves out, always."""
 
@@ -50,10 +51,11 @@ class Mode(ByValue):
         1, 2, ... in order of omega^2; 0 for a rigid mode.
     name : str
         ``"bending 1"``, ``"rigid rotation"``, ...
-    kind : {"rigid", "elastic", "divergent"}
-        Divergent where omega^2 < 0: the motion grows instead of vibrating.
+    kind : {"rigid", "elastic", "divergent", "flutter"}
+        Divergent where omega^2 < 0: the motion grows instead of vibrating. Flutter where it grows
+        while it oscillates, as it may where end forces follow; its twin that decays is elastic.
     omega2 : float
-        [rad^2/s^2].
+        [rad^2/s^2]; of an oscillation that grows or decays the square of its circular frequency.
     bracket_omega2 : tuple of float
         Encloses the eigenvalue of the segment chain, rounding included [rad^2/s^2].
     counts : tuple of int
@@ -70,6 +72,8 @@ class Mode(ByValue):
     model_error : float or None
         First-order relative effect of shear and rotary inertia on the frequency (negative: they
         lower it); None where the beam does not tell, and for rigid modes.
+    growth : float
+        Rate at which an oscillation grows, or decays where negative [1/s]; 0 where it does neither.
     unloaded_omega2 : float or None
         omega^2 of the same mode without axial force, where it was asked for.
     states : array, shape (points, 4) or (points, 2)
@@ -89,6 +93,20 @@ class Mode(ByValue):
     model_error: float | None
     states: Array = field(repr=False)
     unloaded_omega2: float | None = None
+    growth: float = 0.0
+
+    @property
+    def eigenvalue_per_s(self) -> complex:
+        """S of the motion ``exp(s t)``, the one of its pair that has Im s >= 0 [1/s]."""
+        if self.omega2 < 0:
+            return complex(math.sqrt(-self.omega2), 0.0)
+        return complex(self.growth, math.sqrt(self.omega2))
+
+    @property
+    def damping_ratio(self) -> float:
+        """-Re s/|s|: negative where the motion grows, NaN for s = 0."""
+        s = self.eigenvalue_per_s
+        return -s.real / abs(s) + 0.0 if s else math.nan
 
     @property
     def frequency_hz(self) -> float:
@@ -97,8 +115,8 @@ class Mode(ByValue):
 
     @property
     def growth_rate_per_s(self) -> float:
-        """Rate at which a divergent motion grows [1/s]; NaN for omega^2 >= 0."""
-        return growth_rate(self.omega2)
+        """Rate at which the motion grows or decays [1/s]; NaN where it only oscillates."""
+        return self.growth or growth_rate(self.omega2)
 
     @property
     def bracket_hz(self) -> tuple[float, float]:
@@ -113,7 +131,9 @@ class Mode(ByValue):
 
     @property
     def error_growth_rate_per_s(self) -> float:
-        """The same for the growth rate of a divergent mode [1/s]."""
+        """The same for the growth rate [1/s]."""
+        if self.growth:
+            return self.error_omega2 / (2 * abs(self.eigenvalue_per_s))
         return error_of_root(-self.omega2, self.error_omega2) if self.omega2 < 0 else math.nan
 
     @property
@@ -138,7 +158,7 @@ class Solution:
     chain : Chain
         Uniform segments, from x = 0.
     omega2 : array, shape (k,)
-        [rad^2/s^2], of the modes in their order.
+        [rad^2/s^2], of the modes in their order; complex, as are the states, where one flutters.
     states : array, shape (n + 1, k, s)
         At the nodes, SI, as normalised.
     """
@@ -171,6 +191,10 @@ class ModalResult(ByValue):
         Number of uniform segments that represent the beam, by family.
     solutions : dict
         The `Solution` of each family, which `at` evaluates.
+    certificate : dict
+        What proves that no bending mode is missing and none too many: ``{"kind": "counts"}``; where
+        end forces follow "winding", with the region and the record of the proof; "none" where
+        nothing is proven.
     warnings : tuple of str
         What a user should know before trusting the numbers, and what to do about it.
     """
@@ -184,6 +208,7 @@ class ModalResult(ByValue):
     segments: dict[str, int]
     solutions: dict[FamilyName, Solution] = field(repr=False, compare=False)
     warnings: tuple[str, ...]
+    certificate: Mapping[str, Any] = field(default_factory=lambda: {"kind": "counts"})
 
     def __str__(self) -> str:
         lines = [f"{self.beam.name}: {len(self.modes)} modes"]
@@ -195,6 +220,11 @@ class ModalResult(ByValue):
             )
             lines.append(f"  {mode.name:<20} {mode.kind:<10} {value}")
         return "\n".join([*lines, *(f"  warning: {w}" for w in self.warnings)])
+
+    @property
+    def follows(self) -> bool:
+        """Whether a force of the beam turns with its end: bending is then not self-adjoint."""
+        return any(self.beam.following())
 
     @property
     def families(self) -> tuple[FamilyName, ...]:
@@ -251,7 +281,8 @@ class ModalResult(ByValue):
             "schema_version": 1,
             "name": self.beam.name,
             "attachments": [attachment_dict(item) for item in self.beam.attachments],
-            "modes": [_mode_dict(mode) for mode in self.modes],
+            "modes": [_mode_dict(mode, self.follows) for mode in self.modes],
+            "certificate": dict(self.certificate),
             "method": self.method,
             "tolerance": self.tolerance,
             "segments": dict(self.segments),
@@ -276,7 +307,19 @@ def _plus_minus(error: float) -> str:
     return "" if math.isnan(error) else f" +- {error:.1e}"
 
 
-def _mode_dict(mode: Mode) -> dict[str, Any]:
+def _mode_dict(mode: Mode, follows: bool) -> dict[str, Any]:
+    s = mode.eigenvalue_per_s
+    of_pair = {
+        "eigenvalue_per_s": [s.real, s.imag],
+        "damping_ratio": null(mode.damping_ratio),
+        "growth_rate_per_s": s.real,
+    }
+    return _plain_dict(mode) | (
+        of_pair if follows and FAMILIES[mode.family].law.has_axial_force else {}
+    )
+
+
+def _plain_dict(mode: Mode) -> dict[str, Any]:
     return {
         "family": mode.family,
         "number": mode.number,

@@ -12,9 +12,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.attachments import PointMass
 from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
-from antinode.beam.families import FAMILIES, FamilyName
+from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import Eigenvalue
 
@@ -35,8 +36,70 @@ def exact_zeros(beam: Beam, name: FamilyName) -> int:
     """Return how many rigid modes have omega^2 = 0 exactly: translation, and all without N."""
     rigid = rigid_modes(beam, name)
     if FAMILIES[name].law.has_axial_force and not beam.is_unloaded:
-        return int("translation" in rigid)
+        return int("translation" in rigid) + int(turns_freely(beam, name))
     return len(rigid)
+
+
+def turns_freely(beam: Beam, name: FamilyName) -> bool:
+    """Tell whether nothing turns a loaded free body back: omega^2 = 0 is a double root then.
+
+    So it is where all forces of a body turn with it, both those at its ends and none other: what
+    the section carries, N(x), is then nothing but the inertia of what it pushes. Such a rotation is
+    no eigenvector: it accelerates the body sideways.
+    """
+    if not any(beam.following(name)) or len(beam.freedoms(name)) < 2:
+        return False
+    (left, right), outside = beam.following(name), beam.end_forces
+    push = (right - left) / beam.mass
+    k, share = (
+        np.repeat(np.arange(len(beam.x) - 1), len(_SHARES)),
+        np.tile(_SHARES, len(beam.x) - 1),
+    )
+    N = beam.axial_force_at(k, share)
+    own = left + push * beam.mass_left_of(k, share)
+    size = _ROUNDING * float(np.max(np.abs(N)))
+    ends = max(abs(left - outside[0]), abs(right - outside[1]))
+    through_centres = beam.offset_weight or not any(
+        isinstance(item, PointMass) and item.offset for item in beam.attachments
+    )
+    return bool(max(float(np.max(np.abs(N - own))), ends) <= size and through_centres)
+
+
+def rigid_rotation(chain: Chain, pivot: float | None = None) -> float:
+    """Return omega^2 of the rotation of a chain if it did not bend [rad^2/s^2].
+
+    The axial force turns it on, what follows at the ends turns it back:
+    ``J omega^2 = -int N dx + kappa_right (L - x_p) + kappa_left x_p`` about the pivot x_p, which is
+    the centre of mass where nothing holds the chain.
+    """
+    nodes = chain.nodes
+    about = _centre_of_mass(chain) if pivot is None else pivot
+    left, right = chain.following
+    turning = -float(chain.axial_force @ chain.length) + right * (nodes[-1] - about) + left * about
+    middle, dm = (nodes[1:] + nodes[:-1]) / 2, chain.mass * chain.length
+    inertia = dm @ ((middle - about) ** 2 + chain.length**2 / 12)
+    for p in chain.points:
+        inertia += p.mass * (nodes[p.node] + p.offset - about) ** 2 + p.inertia
+    return float(turning / inertia)
+
+
+def pivot_of(beam: Beam) -> float | None:
+    """Return where a beam that may turn, and not move, is held [m from its left end]."""
+    freedoms = beam.freedoms(BENDING)
+    return float(-freedoms[0, 0] / freedoms[0, 1]) if len(freedoms) == 1 else None
+
+
+def nearest_to_rotation(
+    found: Sequence[Eigenvalue], chain: Chain, pivot: float | None = None
+) -> int:
+    """Return which eigenvalue, of those not exactly zero, is the rotation where ends follow."""
+    expected = rigid_rotation(chain, pivot)
+    rest = [k for k, value in enumerate(found) if value.omega2 != 0.0]
+    return min(rest, key=lambda k: abs(found[k].value - expected))
+
+
+_SHARES = np.array([0.0, 0.25, 0.5, 1.0])
+_ROUNDING = 1e-12  # of the largest N
 
 
 def rigid_state(beam: Beam, chain: Chain, name: str) -> Array:
@@ -61,12 +124,20 @@ def _centre_of_mass(chain: Chain) -> float:
     return float((dm @ middle + masses @ places) / (np.sum(dm) + np.sum(masses)))
 
 
-def elastic(found: Sequence[Eigenvalue], rigid: int) -> list[Eigenvalue]:
+def elastic(
+    found: Sequence[Eigenvalue], rigid: int, chain: Chain | None = None
+) -> list[Eigenvalue]:
     """Return the eigenvalues without the rigid ones: zeros, and the lowest that N moved off zero.
 
-    Past buckling elastic modes lie below the translation.
+    Past buckling elastic modes lie below the translation. Of a `chain` whose end forces follow the
+    one next to a rigid body's rotation is set aside.
     """
     others = [value for value in found if value.omega2 != 0.0]
+    if chain is not None and chain.follows and rigid > len(found) - len(others):
+        held = rigid == 1
+        pivot = (chain.nodes[-1] if chain.right == "pinned" else 0.0) if held else None
+        others.remove(found[nearest_to_rotation(found, chain, pivot)])
+        return others
     return others[rigid - (len(found) - len(others)) :]
 
 

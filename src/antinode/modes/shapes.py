@@ -40,13 +40,20 @@ def shapes(
     keep: list[int],
     names: list[tuple[str, int]],
 ) -> Array:
-    """Return the states of the kept modes at all nodes; rigid modes at omega^2 = 0 are known."""
-    states = np.zeros((len(chain.length) + 1, len(keep), chain.law.size))
+    """Return the states of the kept modes at all nodes; rigid modes at omega^2 = 0 are known.
+
+    Where end forces follow, pairs may be complex, and so are all states then; modes that coincide
+    have one shape there.
+    """
+    values = np.array([eigenvalues[k].value for k in keep])
+    states = np.zeros((len(chain.length) + 1, len(keep), chain.law.size), values.dtype)
     free = [c for c, k in enumerate(keep) if eigenvalues[k].omega2 != 0.0 or names[k][1] > 0]
     for c in set(range(len(keep))) - set(free):
         states[:, c] = rigid_state(beam, chain, names[keep[c]][0])
-    if free:
-        omega2 = np.array([eigenvalues[keep[c]].omega2 for c in free])
+    if free and chain.follows:
+        states[:, free] = solver.mode_states(chain, values[free], np.ones(len(free), np.int64))
+    elif free:
+        omega2 = values[free]
         clusters = np.array(
             [
                 sum(eigenvalues[keep[o]].bracket == eigenvalues[keep[c]].bracket for o in free)
@@ -166,6 +173,11 @@ def normalising_factors(
 ) -> Array:
     """Return the factor for each mode: size as asked, first extremum from the nose positive."""
     displacement = states[..., 0]
+    if np.iscomplexobj(states):  # of nodes, and at the instant when it is largest there
+        peak = np.argmax(np.abs(displacement), axis=0)
+        largest = displacement[peak, np.arange(len(omega2))]
+        size = np.sqrt(mass) if normalisation == "mass" else np.abs(largest)
+        return np.asarray(np.abs(largest) / largest / size)
     largest = largest_displacements(chain, states, omega2)
     sign = _first_extremum_signs(displacement, largest)
     return np.asarray(sign / (np.sqrt(mass) if normalisation == "mass" else largest))

@@ -9,7 +9,8 @@ omega^2, whatever its sign.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Protocol
 
@@ -18,11 +19,12 @@ import numpy as np
 from antinode.arguments import choice, whole, within
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
-from antinode.beam.families import FAMILIES, FamilyName
+from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import ComputationError, InputError
-from antinode.riccati.chain import omega2_scale
-from antinode.riccati.shapes import split_for
+from antinode.riccati.chain import Chain, omega2_scale
+from antinode.riccati.roots import Eigenvalue
+from antinode.riccati.shapes import Energies, split_for
 
 from .backends import Backend, BackendName, choose, for_one
 from .brackets import ROUNDING, cancelling
@@ -119,6 +121,7 @@ def _solve_families(
     segments: dict[str, int] = {}
     solutions: dict[FamilyName, Solution] = {}
     warnings: list[str] = []
+    certificates: dict[FamilyName, Mapping[str, Any]] = {}
     for family in families:
         solved = solve_family(beam, family, modes, tolerance, solver)
         named, solutions[family] = _modes_of(
@@ -127,6 +130,7 @@ def _solve_families(
         found += named
         segments[family] = len(solved.chain.length)
         warnings += solved.warnings
+        certificates[family] = solved.certificate
     if unloaded:
         found = _compare_unloaded(solver.counting, beam, found, modes, tolerance)
     if not all(np.isfinite(mode.omega2) for mode in found):
@@ -142,6 +146,7 @@ def _solve_families(
         segments=segments,
         solutions=solutions,
         warnings=tuple(warnings),
+        certificate=certificates.get(BENDING, next(iter(certificates.values()))),
     )
 
 
@@ -182,25 +187,38 @@ def _modes_of(
     keep = [
         k
         for k, (value, (_, number)) in enumerate(zip(solved.eigenvalues, names, strict=True))
-        if number <= modes or value.omega2 < 0
+        if number <= modes or value.order < 0 or value.imaginary
     ]
     chain = solved.chain.cut_at(np.unique(grid - grid[0]))
-    omega2 = np.array([solved.eigenvalues[k].omega2 for k in keep])
-    chain = split_for(chain, omega2)
+    omega2 = np.array([solved.eigenvalues[k].value for k in keep])
+    chain = split_for(chain, np.abs(omega2))
     states = shapes(backend, beam, chain, solved.eigenvalues, keep, names)
-    energies = backend.mode_energies(chain, states, omega2)
-    scale = normalising_factors(chain, states, omega2, energies.mass, normalisation)
+    energies = _energies(backend, chain, states, omega2)
+    scale = normalising_factors(chain, states, omega2, np.abs(energies.mass), normalisation)
     states = states * scale[:, None]
-    at_grid = on_grid(chain, states, omega2, grid - grid[0])
+    at_grid = on_grid(chain, states, omega2, grid - grid[0]).real
     energies = energies.scaled(scale)
+    mass = np.abs(energies.mass)
     model_errors = estimate_model_errors(beam, chain, omega2, energies)
-    size = cancelling(energies.size, energies.mass, omega2) * energies.mass
-    quadratic = np.transpose([energies.mass, energies.stiffness, size]).tolist()
+    size = cancelling(energies.size, mass, omega2)
+    off = np.abs(energies.stiffness / energies.mass - omega2)
+    quadratic = np.transpose([mass, off, size.real]).tolist()
     rows = [
         _mode(solved, k, names[k], at_grid[:, column], quadratic[column], model_errors[column])
         for column, k in enumerate(keep)
     ]
+    if chain.follows:
+        return rows, Solution(chain, omega2, states)
     return with_joint_brackets(rows), Solution(chain, omega2, states)
+
+
+def _energies(backend: Backend, chain: Chain, states: Array, omega2: Array) -> Energies:
+    """Return the energies of modes, between right and left eigenvectors where these differ."""
+    if not chain.follows:
+        return backend.mode_energies(chain, states, omega2)
+    from .following import two_sided_energies
+
+    return two_sided_energies(backend, chain, states, omega2)
 
 
 def _mode(
@@ -212,31 +230,40 @@ def _mode(
     model_error: float | None,
 ) -> Mode:
     value, family = solved.eigenvalues[k], solved.chain.family
-    (name, number), (mass, stiffness, size) = named, quadratic
+    (name, number), (mass, off, size) = named, quadratic
     exact = value.omega2 == 0.0 and number == 0
-    rounding = 0.0 if exact else ROUNDING * size / mass
+    rounding = 0.0 if exact else ROUNDING * size
     if np.isnan(mass):  # no shape: as if much cancelled
         rounding = 1e3 * ROUNDING * abs(value.omega2)
+    moved = value.order - value.omega2
     low, high = value.bracket[0] - rounding, value.bracket[1] + rounding
     half = max(value.omega2 - low, high - value.omega2)
     error = 0.0 if exact else half + float(solved.discretisation[k])
-    quotient = stiffness / mass
-    reference = max(abs(value.omega2), 1e-9 * omega2_scale(solved.chain))
-    kind: Kind = "divergent" if value.omega2 < 0 else "elastic" if number else "rigid"
+    reference = max(abs(value.value), 1e-9 * omega2_scale(solved.chain))
+    growth = _growth(value)
+    kind: Kind = "divergent" if value.order < 0 else "elastic" if number else "rigid"
     return Mode(
         family=family,
         number=number,
         name=name,
-        kind=kind,
-        omega2=value.omega2,
-        bracket_omega2=(low, high),
+        kind="flutter" if growth > 0 else kind,
+        omega2=value.order,
+        bracket_omega2=(low + moved, high + moved),
         counts=value.counts,
         error_omega2=error,
         modal_mass=mass,
-        residual=0.0 if exact else abs(quotient - value.omega2) / reference,
+        residual=0.0 if exact else off / reference,
         model_error=model_error if number else None,
         states=shape,
+        growth=growth,
     )
+
+
+def _growth(value: Eigenvalue) -> float:
+    """Return Re s of a complex eigenvalue ``omega^2 = -s^2``: the second of a pair grows."""
+    if not value.imaginary:
+        return 0.0
+    return math.copysign((-(value.value**0.5)).imag, -value.imaginary)
 
 
 def _compare_unloaded(

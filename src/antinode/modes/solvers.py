@@ -6,8 +6,9 @@ A solver is chosen by its method's name; the refinement and everything behind it
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import ClassVar, Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Literal
 
 from antinode.arrays import Array
 from antinode.errors import ComputationError, InputError
@@ -18,7 +19,7 @@ from antinode.riccati.roots import CountingError, Eigenvalue, check_certificate
 from .backends import Backend
 from .result import Method
 
-Certificate = Literal["counts", "none"]
+Certificate = Literal["counts", "winding", "none"]
 _LONG = 1000  # segments from which brackets are wider
 
 
@@ -28,6 +29,8 @@ class Found:
 
     eigenvalues: list[Eigenvalue]
     warnings: tuple[str, ...] = ()
+    certificate: Mapping[str, Any] = field(default_factory=lambda: {"kind": "counts"})
+    """What proves the list, as JSON has it."""
 
 
 class Solver(ABC):
@@ -35,7 +38,7 @@ class Solver(ABC):
 
     Attributes
     ----------
-    certificate : {"counts", "none"}
+    certificate : {"counts", "winding", "none"}
         What proves that the list has no gap and nothing too many; an error is stated only where
         something does.
     backend : Backend
@@ -124,6 +127,11 @@ class TransferMatrices(Solver):
         self, chain: Chain, wanted: int, *, zeros: int, expected: Array | None = None
     ) -> Found:
         """Scan as far as the counts say that the eigenvalues reach, and compare with them."""
+        if chain.follows:
+            raise InputError(
+                "method 'tmm' knows end forces of fixed direction alone; set the follower shares "
+                "to 0, or leave the method out"
+            )
         counted = self.counting.find(chain, wanted, zeros=zeros, expected=expected)
         certified = counted.eigenvalues
         lowest, highest = certified[0].omega2, certified[-1].omega2
@@ -135,12 +143,12 @@ class TransferMatrices(Solver):
             raise ComputationError(f"the transfer matrix scan found no {chain.law.name} mode")
         steps = sum(e.counts == (e.index - 1, e.index) or e.omega2 == 0.0 for e in found)
         if steps == len(certified):
-            return Found(found)
+            return Found(found, certificate={"kind": "none"})
         warning = (
             f"{chain.law.name}: the transfer matrix scan confirms {steps} of {len(certified)} "
             "eigenvalues; use the default method for a certified list"
         )
-        return Found(found, (warning,))
+        return Found(found, (warning,), {"kind": "none"})
 
 
 SOLVERS: dict[Method, type[Counting] | type[TransferMatrices]] = {

@@ -27,7 +27,14 @@ import numpy as np
 import numpy.typing as npt
 
 from .arrays import Array, Integers
-from .frames import determinant, displacement_sign, hold, inverse_upper, orthonormalise
+from .frames import (
+    determinant,
+    displacement_sign,
+    hold,
+    inverse_upper,
+    orthonormalise,
+    turning,
+)
 from .laws import Columns, Law, LawName, Units
 from .points import Point, StepKind
 from .segment import LONGEST_STEP
@@ -50,6 +57,9 @@ class Chain:
         Names of ends of the law.
     points : tuple of Point
         What sits at the nodes, at most one for each node, in order.
+    following : tuple of float
+        kappa of the left and right end [N]: the part of its force that turns with a free end, where
+        then M = 0 and ``Q = kappa psi``. Counts know fixed directions alone: `riccati.following`.
     """
 
     law: Law
@@ -58,6 +68,17 @@ class Chain:
     left: str = "free"
     right: str = "free"
     points: tuple[Point, ...] = ()
+    following: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def follows(self) -> bool:
+        """Whether the force of an end turns with it: the problem is then not self-adjoint."""
+        return any(self.following)
+
+    @property
+    def fixed(self) -> Chain:
+        """The same chain with end forces that keep their direction."""
+        return replace(self, following=(0.0, 0.0)) if self.follows else self
 
     @property
     def family(self) -> LawName:
@@ -301,8 +322,9 @@ class Sweep(NamedTuple):
 def sweep(steps: Steps, start: Array) -> Sweep:
     """Carry the frame of one end through the steps: the Riccati recursion (equation 74)."""
     d = start.shape[-1]
-    F = np.empty((len(steps.U) + 1, *start.shape))
-    R = np.empty((len(steps.U) + 1, len(start), d, d))
+    kind = np.result_type(steps.U, start)
+    F = np.empty((len(steps.U) + 1, *start.shape), kind)
+    R = np.empty((len(steps.U) + 1, len(start), d, d), kind)
     F[0], R[:] = start, np.eye(d)
     factor = np.ones(len(start))
     held: dict[int, Array] = {}
@@ -318,9 +340,19 @@ def sweep(steps: Steps, start: Array) -> Sweep:
     return Sweep(F, R, back, factor)
 
 
-def end_frame(chain: Chain, side: int, units: Array) -> Array:
-    """Return the frame of states that an end admits: side 0 or -1, units (k, s); (k, s, d)."""
-    return chain.law.admitted((chain.left, chain.right)[side], _beside(chain, side), units)
+def end_frame(chain: Chain, side: int, units: Array, *, adjoint: bool = False) -> Array:
+    """Return the frame of states that an end admits: side 0 or -1, units (k, s); (k, s, d).
+
+    Where its force follows, the `adjoint` problem admits others.
+    """
+    F = chain.law.admitted((chain.left, chain.right)[side], _beside(chain, side), units)
+    kappa = chain.following[side]
+    return turning(F, _turn(kappa, units), adjoint) if kappa else F
+
+
+def _turn(kappa: float, units: Array) -> Array:
+    """Return Q for a turn of one in the units of the states, shape (k,)."""
+    return np.asarray(kappa * units[:, 1] / units[:, -1])
 
 
 def _beside(chain: Chain, side: int) -> dict[str, Any]:
@@ -330,7 +362,11 @@ def _beside(chain: Chain, side: int) -> dict[str, Any]:
 
 def characteristic(chain: Chain, F: Array, units: Array) -> Array:
     """Return the determinant of what the right end wants to vanish in the last frame, (k,)."""
-    return determinant(chain.law.conditions(chain.right, _beside(chain, -1), units) @ F)
+    rows, kappa = chain.law.conditions(chain.right, _beside(chain, -1), units), chain.following[-1]
+    if kappa:
+        rows = rows.copy()
+        rows[:, -1, 1] -= _turn(kappa, units)
+    return determinant(rows @ F)
 
 
 def negative_at_nodes(law: Law, steps: Steps, frames: Sweep) -> Integers:
@@ -350,7 +386,7 @@ class Evaluation(NamedTuple):
     """What one pass over the chain tells at each omega^2."""
 
     below: Integers
-    """Number of eigenvalues below omega^2, shape (k,)."""
+    """Number of eigenvalues below omega^2, shape (k,); -1 where end forces follow."""
     characteristic: Array
     """Characteristic function, bounded and without poles, shape (k,)."""
 
@@ -384,9 +420,12 @@ def _evaluate(fine: Chain, omega2: Array, largest: float) -> Evaluation:
     steps = make_steps(fine, omega2, blocks, starts)
     frames = sweep(steps, end_frame(fine, 0, units))
     last = frames.F[-1]
+    value = frames.factor * characteristic(fine, last, units)
+    if fine.follows:
+        return Evaluation(np.full(len(omega2), -1), value)
     at_end = fine.law.negative_at_end(last, fine.right)
     below = negative_at_nodes(fine.law, steps, frames) + at_end
-    return Evaluation(below, frames.factor * characteristic(fine, last, units))
+    return Evaluation(below, value)
 
 
 def count_below(chain: Chain, omega2: npt.ArrayLike) -> Integers:

@@ -29,6 +29,8 @@ class Chains:
     axial_force: Array
     left: str
     right: str
+    following: Array | None = None
+    """kappa of both ends [N], shape (chains, 2); None where no force turns with its end."""
 
     def __len__(self) -> int:
         return len(self.axial_force)
@@ -38,7 +40,10 @@ class Chains:
         h, m, stiffness, N = (v[row if len(v) > 1 else 0] for v in self.arrays)
         columns = {"mass": m, "stiffness": stiffness, "axial_force": N}
         own = {name: columns[name] for name in self.law.columns}
-        return Chain(self.law, h, own, self.left, self.right)
+        ends = (0.0, 0.0)
+        if self.following is not None:
+            ends = float(self.following[row, 0]), float(self.following[row, 1])
+        return Chain(self.law, h, own, self.left, self.right, following=ends)
 
     @property
     def arrays(self) -> tuple[Array, Array, Array, Array]:
@@ -48,7 +53,8 @@ class Chains:
     def some(self, rows: Integers) -> Chains:
         """Return some of them."""
         h, m, stiffness, N = (v if len(v) == 1 < len(self) else v[rows] for v in self.arrays)
-        return Chains(self.law, h, m, stiffness, N, self.left, self.right)
+        following = None if self.following is None else self.following[rows]
+        return Chains(self.law, h, m, stiffness, N, self.left, self.right, following)
 
 
 class ChainRoots(NamedTuple):

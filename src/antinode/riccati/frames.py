@@ -18,15 +18,21 @@ def orthonormalise(F: Array) -> tuple[Array, Array]:
     ----------
     F : array, shape (..., s, d)
     """
-    Q, R = np.empty_like(F), np.zeros((*F.shape[:-2], F.shape[-1], F.shape[-1]))
+    Q, R = np.empty_like(F), np.zeros((*F.shape[:-2], F.shape[-1], F.shape[-1]), F.dtype)
     for j in range(F.shape[-1]):
         column = F[..., j]
         for i in range(j):
-            R[..., i, j] = np.einsum("...s,...s->...", Q[..., i], column)
+            R[..., i, j] = _product(Q[..., i], column)
             column = column - R[..., i, j, None] * Q[..., i]
-        R[..., j, j] = np.sqrt(np.einsum("...s,...s->...", column, column))
+        R[..., j, j] = np.sqrt(_product(column, column).real)
         Q[..., j] = column / R[..., j, j, None]
     return Q, R
+
+
+def _product(a: Array, b: Array) -> Array:
+    """Return the scalar products of columns, shape (...,)."""
+    left = np.conj(a) if np.iscomplexobj(a) else a
+    return np.asarray(np.einsum("...s,...s->...", left, b))
 
 
 def inverse_upper(R: Array) -> Array:
@@ -51,6 +57,18 @@ def minor(F: Array, rows: list[int]) -> Array:
     return determinant(F[..., rows, :])
 
 
+def turning(F: Array, kappa: Array, adjoint: bool) -> Array:
+    """Return the frame of a free end with ``Q = kappa psi``; of the adjoint one ``M = -kappa Y``.
+
+    The adjoint plane is all that the symplectic form takes to zero with the first.
+    """
+    F, size = F.copy(), np.sqrt(1 + kappa**2)
+    row, column, sign = (-2, 0, -1) if adjoint else (-1, 1, 1)
+    F[:, row, column] += sign * kappa
+    F[:, :, column] /= size[:, None]
+    return F
+
+
 def hold(F: Array, rows: tuple[int, ...]) -> tuple[Array, Array, Array]:
     """Pass a frame through a support that holds displacements at zero.
 
@@ -71,7 +89,7 @@ def hold(F: Array, rows: tuple[int, ...]) -> tuple[Array, Array, Array]:
         What the part on the left adds to the characteristic function where it is cut off.
     """
     lanes, size, d = F.shape
-    new, back = np.zeros_like(F), np.zeros((lanes, d, d))
+    new, back = np.zeros_like(F), np.zeros((lanes, d, d), F.dtype)
     if len(rows) == d:  # everything held: what follows knows nothing of what came before
         new[:, d:] = np.eye(d)
         return new, back, np.linalg.det(F[:, :d])

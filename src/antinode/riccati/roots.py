@@ -38,12 +38,31 @@ class Eigenvalue:
         omega^2 below and above the root [rad^2/s^2].
     counts : tuple of int
         Number of eigenvalues below either end of the bracket.
+    imaginary : float
+        Imaginary part of omega^2 where end forces follow [rad^2/s^2]; a circle as wide as the
+        bracket then encloses the eigenvalue.
     """
 
     index: int
     omega2: float
     bracket: tuple[float, float]
     counts: tuple[int, int]
+    imaginary: float = 0.0
+
+    @property
+    def value(self) -> complex:
+        """omega^2, complex where end forces make it so."""
+        return complex(self.omega2, self.imaginary) if self.imaginary else self.omega2
+
+    @property
+    def order(self) -> float:
+        """What eigenvalues are ordered by: omega^2; (Im s)^2 of the eigenvalue s of a complex one.
+
+        With s^2 = -omega^2 that is ``(|omega^2| + Re omega^2)/2``.
+        """
+        if not self.imaginary:
+            return self.omega2
+        return (abs(complex(self.omega2, self.imaginary)) + self.omega2) / 2
 
 
 class Samples:
@@ -109,6 +128,8 @@ def find_eigenvalues(
     CountingError
         If brackets cannot be found.
     """
+    if chain.follows:
+        raise CountingError("counts hold for end forces of fixed direction alone")
     samples = Samples(chain)
     samples.add(_first_guesses(chain, wanted) if expected is None else expected)
     _extend(samples, wanted)

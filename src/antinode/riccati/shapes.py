@@ -45,13 +45,20 @@ class Matching(NamedTuple):
     """The state closest to both frames, of norm one, (steps + 1, lanes, s)."""
 
 
-def match(chain: Chain, steps: Steps, units: Array) -> Matching:
-    """Sweep from both ends through the steps and compare the frames between them."""
-    left = sweep(steps, end_frame(chain, 0, units))
-    from_right = sweep(steps.reversed(), end_frame(chain, -1, units))
+def match(chain: Chain, steps: Steps, units: Array, *, adjoint: bool = False) -> Matching:
+    """Sweep from both ends through the steps and compare the frames between them.
+
+    A state lies in a plane where its symplectic product with the adjoint plane is zero: with the
+    plane itself, unless an end's force follows.
+    """
+    left = sweep(steps, end_frame(chain, 0, units, adjoint=adjoint))
+    from_right = sweep(steps.reversed(), end_frame(chain, -1, units, adjoint=adjoint))
     F, R, back, factor = from_right
     right = Sweep(F[::-1], R[::-1], back[::-1], factor)
-    product = np.swapaxes(left.F, -1, -2) @ chain.law.symplectic @ right.F
+    across = left
+    if chain.following[0]:
+        across = sweep(steps, end_frame(chain, 0, units, adjoint=not adjoint))
+    product = np.swapaxes(across.F, -1, -2) @ chain.law.symplectic @ right.F
     gap, null = _smallest_singular(product)
     return Matching(left, right, gap, np.einsum("...sd,...d->...s", right.F, null))
 
@@ -60,7 +67,7 @@ def _smallest_singular(C: Array) -> tuple[Array, Array]:
     """Return the smallest singular value of 1x1 or 2x2 matrices, and its right vector."""
     if C.shape[-1] == 1:
         return np.abs(C[..., 0, 0]), np.ones(C.shape[:-1])
-    norms = np.einsum("...ij,...ij->...i", C, C)
+    norms = np.sum(np.abs(C) ** 2, axis=-1)
     row = np.take_along_axis(C, np.argmax(norms, axis=-1)[..., None, None], axis=-2)[..., 0, :]
     null = np.stack([row[..., 1], -row[..., 0]], axis=-1)
     length = np.linalg.norm(null, axis=-1, keepdims=True)
@@ -84,10 +91,10 @@ def carry_outwards(left: Sweep, right: Sweep, node: Integers, state: Array) -> A
     -------
     array, shape (steps + 1, lanes, s)
     """
-    z = np.zeros(left.F.shape[:-1])
+    z = np.zeros(left.F.shape[:-1], left.F.dtype)
     last = len(z) - 1
     for part, order in ((left, range(last, -1, -1)), (right, range(last + 1))):
-        start = np.einsum("lsd,ls->ld", part.F[node, np.arange(len(node))], state)
+        start = np.einsum("lsd,ls->ld", np.conj(part.F[node, np.arange(len(node))]), state)
         coefficients = np.zeros_like(start)
         for i in order:
             previous = i - order.step
@@ -115,7 +122,7 @@ def fill_blocks(z: Array, U: Array, starts: Integers) -> Array:
     -------
     array, shape (n + 1, lanes, s)
     """
-    states = np.empty((len(U) + 1, *z.shape[1:]))
+    states = np.empty((len(U) + 1, *z.shape[1:]), z.dtype)
     states[np.append(starts, len(U))] = z
     sizes = np.diff(starts, append=len(U))
     for position in range(1, int(sizes.max())):
@@ -124,7 +131,9 @@ def fill_blocks(z: Array, U: Array, starts: Integers) -> Array:
     return states
 
 
-def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
+def mode_states(
+    chain: Chain, omega2: Array, multiplicity: Integers, *, adjoint: bool = False
+) -> Array:
     """Return the states of the modes at every node, on its right side; at the last on its left.
 
     Parameters
@@ -134,6 +143,8 @@ def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
         Eigenvalues [rad^2/s^2], ascending.
     multiplicity : array of int, shape (k,)
         Size of the cluster each belongs to; its members follow each other.
+    adjoint : bool
+        Of the adjoint problem: left eigenvectors, where an end's force follows.
 
     Returns
     -------
@@ -150,7 +161,9 @@ def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
         last = min(first + together, len(omega2))
         while last < len(omega2) and multiplicity[last] > 1 and omega2[last] == omega2[last - 1]:
             last += 1
-        parts.append(_states(fine, omega2[first:last], multiplicity[first:last], largest)[keep])
+        these = slice(first, last)
+        found = _states(fine, omega2[these], multiplicity[these], largest, adjoint)
+        parts.append(found[keep])
         first = last
     return np.concatenate(parts, axis=1)
 
@@ -168,12 +181,14 @@ def kept_nodes(chain: Chain, fine: Chain) -> Integers:
     return np.where(nearest < after, ends - 1, np.minimum(ends, len(fine.length)))
 
 
-def _states(fine: Chain, omega2: Array, multiplicity: Integers, largest: float) -> Array:
+def _states(
+    fine: Chain, omega2: Array, multiplicity: Integers, largest: float, adjoint: bool
+) -> Array:
     U = segment_transfers(fine, omega2)
     starts = block_starts(fine, largest)
     steps = make_steps(fine, omega2, multiply_groups(U, starts), starts)
     units = state_units(fine, omega2)
-    matching = match(fine, steps, units)
+    matching = match(fine, steps, units, adjoint=adjoint)
     node = np.argmin(matching.gap, axis=0)
     state = matching.state[node, np.arange(len(omega2))]
     z = carry_outwards(matching.left, matching.right, node, state)
@@ -302,7 +317,7 @@ def integrate_squares(chain: Chain, states: Array, omega2: Array) -> Squares:
     omega2 : array, shape (k,)
     """
     phase = largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length
-    total = np.zeros((len(Squares._fields), len(chain.length), len(omega2)))
+    total = np.zeros((len(Squares._fields), len(chain.length), len(omega2)), states.dtype)
     for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
         z = propagate(chain, states[:-1], omega2, point * chain.length)
         total += weight * chain.length[:, None] * chain.law.squares(chain.columns, z)

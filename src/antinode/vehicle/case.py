@@ -12,6 +12,7 @@ from pydantic import Field
 
 from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
+from antinode.beam.ends import Ends
 from antinode.beam.file import Solve
 from antinode.beam.limits import check_limits
 from antinode.errors import InputError
@@ -66,13 +67,17 @@ class Case(Frozen):
         InputError
             If its numbers are beyond all reason.
         """
-        beam = vehicle_beam(self.vehicle, self.loads, self.condition.burn_fraction)
+        beam = vehicle_beam(
+            self.vehicle, self.loads, self.condition.burn_fraction, self.model.follow
+        )
         with naming(f"at {self.condition.speed:g} m/s"):
             check_limits(beam)
         return beam
 
 
-def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float) -> Beam:
+def vehicle_beam(
+    vehicle: Vehicle, loads: Loads, burn_fraction: float, follow: tuple[float, float]
+) -> Beam:
     """Return a vehicle as a free-free beam under the axial force of its loads.
 
     Parameters
@@ -82,6 +87,8 @@ def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float) -> Beam:
         ``N(x) = axial_jump + axial_inertia * (mass ahead of x)`` between its breakpoints.
     burn_fraction : float
         0 the first mass state, 1 the last.
+    follow : tuple of float
+        Shares of the cavitator's drag, and of the thrust, that turn with the body.
     """
     steps = np.repeat(loads.axial_jump[:, None], 2, axis=1)
     return body_as_beam(
@@ -90,6 +97,8 @@ def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float) -> Beam:
         burn_fraction,
         axial_force=steps,
         axial_acceleration=loads.axial_inertia,
+        ends=Ends(left_follower=follow[0], right_follower=follow[1]),
+        end_force=(loads.F_CX, loads.thrust),
     )
 
 

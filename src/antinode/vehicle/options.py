@@ -71,6 +71,28 @@ class Model(Frozen):
         description="N along the axis: exact, with steps at the forces, or constant between the "
         "stations as in eq. 22",
     )
-    end_force: Literal["fixed_direction"] = Field(
-        default="fixed_direction", description="end forces keep their direction in space"
+    end_force: Literal["follows_body", "fixed_direction"] = Field(
+        default="fixed_direction",
+        description="whether thrust and the cavitator's drag turn with tail and nose, as those of "
+        "a fixed nozzle and of a disk do, or keep their direction in space",
     )
+    thrust_follows: Annotated[Number, Field(ge=0, le=1)] | None = Field(
+        default=None, description="share of the thrust that turns with the tail; by end_force"
+    )
+    cavitator_follows: Annotated[Number, Field(ge=0, le=1)] | None = Field(
+        default=None,
+        description="share of the cavitator's drag that turns with the nose; by end_force",
+    )
+
+    @property
+    def follow(self) -> tuple[float, float]:
+        """Shares that turn with the body: of the cavitator's drag, of the thrust."""
+        share = 1.0 if self.end_force == "follows_body" else 0.0
+        given = self.cavitator_follows, self.thrust_follows
+        nose, tail = (share if own is None else own for own in given)
+        return nose, tail
+
+    @property
+    def is_end_force_stated(self) -> bool:
+        """Whether anything was said of the end forces."""
+        return bool({"end_force", "thrust_follows", "cavitator_follows"} & self.model_fields_set)

@@ -72,7 +72,9 @@ def _is_known(chain: Chain) -> bool:
 
 
 def _needs_frames(chain: Chain) -> bool:
-    """Tell whether supports stand where the compiled chain does not know them."""
+    """Tell whether supports, or ends that follow, are not known to the compiled chain."""
+    if chain.follows:
+        return True
     known = range(1, len(chain.length)) if FORMS[chain.law].supports else ()
     return any(point.holds and point.node not in known for point in chain.points)
 

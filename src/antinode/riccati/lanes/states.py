@@ -18,14 +18,16 @@ from .workspace import LANES
 _MOST_NODES = 20_000  # whose frames are kept
 
 
-def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
+def mode_states(
+    chain: Chain, omega2: Array, multiplicity: Integers, *, adjoint: bool = False
+) -> Array:
     """Return the states of the modes at every node: `riccati.shapes.mode_states`, compiled.
 
     Supports between the ends, clusters and longitudinal modes are left to the readable form.
     """
     fine = None if _is_special(chain, multiplicity) else shapes.split_for(chain, omega2)
     if fine is None or len(fine.length) > _MOST_NODES:
-        return shapes.mode_states(chain, omega2, multiplicity)
+        return shapes.mode_states(chain, omega2, multiplicity, adjoint=adjoint)
     keep = shapes.kept_nodes(chain, fine)
     parts = [_states(fine, omega2[i : i + LANES]) for i in range(0, len(omega2), LANES)]
     return np.concatenate([part[keep] for part in parts], axis=1)
@@ -33,7 +35,7 @@ def mode_states(chain: Chain, omega2: Array, multiplicity: Integers) -> Array:
 
 def _is_special(chain: Chain, multiplicity: Integers) -> bool:
     held = any(point.holds for point in chain.points)
-    return not _is_known(chain) or held or bool(np.any(multiplicity > 1))
+    return not _is_known(chain) or held or chain.follows or bool(np.any(multiplicity > 1))
 
 
 def _is_known(chain: Chain) -> bool:
@@ -101,7 +103,7 @@ def _lane_points(chain: Chain, omega2: Array, units: Array) -> tuple[Integers, A
 def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies:
     """Return modal mass and stiffness of modes: `riccati.shapes.mode_energies`, compiled."""
     phase = float(np.max(largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length))
-    if not _is_known(chain) or phase > LONGEST_STEP:
+    if not _is_known(chain) or phase > LONGEST_STEP or np.iscomplexobj(states):
         return shapes.mode_energies(chain, states, omega2)
     share, weight = shapes.gauss_rule(phase)
     parts = []

@@ -87,7 +87,12 @@ def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
         try:
             case = cases.case(i)
             many = loads_of_many(case.many({}, 1))
-            beam = vehicle_beam(case.vehicle, loads_of_case(many, 0), case.condition.burn_fraction)
+            beam = vehicle_beam(
+                case.vehicle,
+                loads_of_case(many, 0),
+                case.condition.burn_fraction,
+                case.model.follow,
+            )
             check_limits(beam)
         except AntinodeError:
             reason[i] = NO_BEAM

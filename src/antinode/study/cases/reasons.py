@@ -9,7 +9,7 @@ from antinode.arrays import Integers
 from antinode.modes.batch import REASONS
 from antinode.vehicle.refusals import CAVITATION, EXTRA_DRAG, FINS, NOT_FINITE, OUT_OF_RANGE
 
-PAST_BUCKLING, BEYOND_LIMITS, NO_BEAM, NOT_FOUND = 6, 15, 16, 17
+PAST_BUCKLING, FLUTTERS, BEYOND_LIMITS, NO_BEAM, NOT_FOUND = 6, 7, 15, 16, 17
 WHY: dict[int, str] = {
     **dict(enumerate(REASONS)),
     0: "solved",
@@ -23,9 +23,9 @@ WHY: dict[int, str] = {
     NO_BEAM: "the case has no loads or no beam",
     NOT_FOUND: "the modes of a family could not be found",
 }
-"""What the reason codes mean; past buckling is an answer, all others but 0 are failures."""
+"""What the reason codes mean; past buckling and flutter are answers, others but 0 are failures."""
 
 
 def failed(reason: Integers) -> npt.NDArray[np.bool_]:
     """Tell which cases have no answer."""
-    return np.asarray((reason != 0) & (reason != PAST_BUCKLING))
+    return np.asarray((reason != 0) & (reason != PAST_BUCKLING) & (reason != FLUTTERS))

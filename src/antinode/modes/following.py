@@ -1,0 +1,176 @@
+"""The solver of beams with end forces that turn with the end: certified by winding numbers.
+
+The chain with fixed directions is solved with counts; the winding number of what the following ends
+make of it tells how many eigenvalues lie left of a line (`riccati.following_roots`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.beam.beam import Beam
+from antinode.beam.families import FamilyName
+from antinode.errors import ComputationError
+from antinode.riccati.chain import Chain
+from antinode.riccati.following_roots import Certificate, Finder
+from antinode.riccati.laws import Squares
+from antinode.riccati.roots import CountingError, Eigenvalue
+from antinode.riccati.shapes import Energies
+
+from .backends import Backend
+from .solvers import Counting, Found, Solver
+
+NOT_PROVEN = (
+    "that no mode is missing is not proven here: the forces that follow are too large beside the "
+    "stiffness; compare with fewer or more modes"
+)
+
+
+@dataclass(frozen=True)
+class Following(Solver):
+    """Ends whose force follows: real eigenvalues by changes of sign, pairs by circles."""
+
+    backend: Backend
+    certificate = "winding"
+
+    @property
+    def counting(self) -> Counting:
+        """What solves the same chain with fixed directions."""
+        return Counting(self.backend)
+
+    def find(
+        self, chain: Chain, wanted: int, *, zeros: int, expected: Array | None = None
+    ) -> Found:
+        """Enclose every eigenvalue left of a line above those wanted."""
+        if not chain.follows:
+            return self.counting.find(chain, wanted, zeros=zeros, expected=expected)
+        exact = min(zeros, 1)  # of any chain: a turn that is free on a beam is so in the limit
+
+        def fixed(number: int) -> list[Eigenvalue]:
+            return self.counting.find(chain.fixed, number, zeros=exact).eigenvalues
+
+        try:
+            found = Finder(chain, fixed, exact, 1e-10).find(wanted)
+        except (CountingError, FloatingPointError) as error:
+            raise ComputationError(
+                f"the {chain.law.name} eigenvalues could not be enclosed: {error}; "
+                "check stiffness, mass and axial force for values of a wrong unit"
+            ) from error
+        proven = found.complete and found.certificate.proven
+        eigenvalues = _freed(found.eigenvalues) if zeros > exact else found.eigenvalues
+        warnings = () if proven else (f"{chain.law.name}: {NOT_PROVEN}",)
+        return Found(eigenvalues, warnings, certificate_dict(found.certificate, proven))
+
+
+def certifying(solver: Solver, beam: Beam, family: FamilyName) -> Solver:
+    """Return the solver that certifies a family of a beam, by the same backend."""
+    return Following(solver.backend) if any(beam.following(family)) else solver.counting
+
+
+def eigenvalues_alone(
+    backend: Backend, chain: Chain, number: int, zeros: int, width: float
+) -> list[Eigenvalue]:
+    """Return the lowest eigenvalues of one chain, whether its end forces follow or not.
+
+    Raises
+    ------
+    CountingError, FloatingPointError
+        If they cannot be certified.
+    """
+    if not chain.follows:
+        return backend.find_eigenvalues(chain, number, zeros=zeros, width=width)
+
+    def fixed(count: int) -> list[Eigenvalue]:
+        return backend.find_eigenvalues(chain.fixed, count, zeros=zeros, width=width)
+
+    found = Finder(chain, fixed, zeros, width).find(number)
+    if not (found.complete and found.certificate.proven):
+        raise CountingError("that no mode is missing is not proven")
+    return found.eigenvalues
+
+
+def certificate_dict(certificate: Certificate, proven: bool) -> dict[str, Any]:
+    """Return a certificate as JSON has it."""
+    record = {
+        "fixed_direction_count": certificate.fixed,
+        "winding_number": certificate.turns,
+        "eigenvalues": certificate.number,
+        "samples": certificate.samples,
+        "margin": certificate.margin,
+    }
+    region = {"real_part_of_omega2_below": certificate.below}
+    return {"kind": "winding" if proven else "none", "region": region, "record": record}
+
+
+def _freed(found: list[Eigenvalue]) -> list[Eigenvalue]:
+    """Set the eigenvalue next to zero to zero: that of a rotation which nothing turns back.
+
+    A chain of uniform segments shares out the axial force a little wrongly, and misses by that.
+    """
+    others = [k for k, value in enumerate(found) if value.omega2 != 0.0]
+    zero = next(k for k, value in enumerate(found) if value.omega2 == 0.0)
+    nearest = min(others, key=lambda k: abs(complex(found[k].omega2, found[k].imaginary)))
+    low, high = found[nearest].bracket
+    edge = (min(low, found[zero].bracket[0]), max(high, found[zero].bracket[1]))
+    rest = [value for k, value in enumerate(found) if k not in (nearest, zero)]
+    below = sum(value.omega2 < 0 for value in rest)
+    both = [Eigenvalue(0, 0.0, edge, (below, below + 2))] * 2
+    listed = sorted([*rest, *both], key=lambda v: (v.order, -v.imaginary))
+    return [
+        replace(v, index=k + 1, counts=v.counts if v.omega2 == 0.0 else (k, k + 1))
+        for k, v in enumerate(listed)
+    ]
+
+
+def two_sided_energies(backend: Backend, chain: Chain, right: Array, omega2: Array) -> Energies:
+    """Return the energies of modes between right and left eigenvectors.
+
+    The left eigenvector w is scaled as the right one v, and so that int m w v > 0. The stiffness
+    holds what the ends do: ``kappa psi_v w`` at the right, less the same at the left.
+
+    Parameters
+    ----------
+    right : array, shape (n + 1, k, s)
+        States of the modes; of rigid ones at omega^2 = 0 as well, which are their own left ones.
+    omega2 : array, shape (k,)
+    """
+    left = left_states(backend, chain, right, omega2)
+    plus, minus = (
+        backend.mode_energies(chain, right + sign * left, omega2) for sign in (1.0, -1.0)
+    )
+    squares = Squares(*((a - b) / 4 for a, b in zip(plus.squares, minus.squares, strict=True)))
+    mass, stiffness = (plus.mass - minus.mass) / 4, (plus.stiffness - minus.stiffness) / 4
+    for side, sign in ((0, -1.0), (-1, 1.0)):
+        turn = chain.following[side] * right[side, :, 1] * left[side, :, 0]
+        stiffness = stiffness + sign * turn
+    size = np.abs(plus.size + minus.size) / 4
+    return Energies(squares, mass, stiffness, size)
+
+
+def left_states(backend: Backend, chain: Chain, right: Array, omega2: Array) -> Array:
+    """Return left eigenvectors as large as the right ones, with int m w v > 0."""
+    left = right.copy()
+    found = np.flatnonzero(omega2 != 0.0)
+    if not len(found):
+        return left
+    one = np.ones(len(found), np.int64)
+    w = backend.mode_states(chain, omega2[found], one, adjoint=True)
+    v = right[:, found]
+    scale = np.max(np.abs(v[..., 0]), axis=0) / np.max(np.abs(w[..., 0]), axis=0)
+    mass = np.einsum("n,nk->k", _mass_at_nodes(chain), v[..., 0] * w[..., 0])
+    phase = np.abs(mass) / np.where(mass == 0, 1.0, mass)
+    left[:, found] = w * (scale * np.where(mass == 0, 1.0, phase))[:, None]
+    return left
+
+
+def _mass_at_nodes(chain: Chain) -> Array:
+    """Return the mass of a chain shared out to its nodes [kg]: enough to tell a sign."""
+    own = chain.mass * chain.length / 2
+    mass = np.append(own, 0.0) + np.append(0.0, own)
+    for point in chain.points:
+        mass[point.node] += point.mass
+    return np.asarray(mass)

@@ -1,0 +1,384 @@
+"""Eigenvalues of a chain whose end forces follow: all of them left of a line, proven.
+
+How many lie left of a line ``Re omega^2 = R`` follows from the count of the chain with fixed
+directions, and the turns that g makes about zero along the line (`riccati.following`). The real
+ones are enclosed by changes of sign of the characteristic function; what is missing to the number
+are pairs of complex ones, each enclosed by a circle round which g turns once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from .arrays import Array, Complex
+from .chain import Chain, omega2_scale
+from .following import Following, beyond
+from .roots import CountingError, Eigenvalue
+from .winding import Samples, Turns, around, holds_one, left_of
+
+FixedEigenvalues = Callable[[int], list[Eigenvalue]]
+"""Returns at least so many eigenvalues, from the lowest, of the chain with fixed directions."""
+
+_GAPS = 6  # above those wanted in which the line may stand
+_ENOUGH = 0.8  # of abs(g - 1) far off
+_DENSE = 6  # samples of the characteristic function for each eigenvalue
+_PASSES = 60
+_ON_AXIS = 1e-9  # share of an imaginary part that is rounding
+_SINE = math.sin(math.pi / 8)  # of theta/2 left of the line, as far off as 1.5 R
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """Why nothing is missing and nothing too many left of a line.
+
+    Attributes
+    ----------
+    below : float
+        R, where the line crosses the axis [rad^2/s^2].
+    fixed : int
+        Eigenvalues below R with fixed directions, by counts.
+    turns : int
+        Of g about zero: what there is more of where ends follow.
+    samples : int
+        Of g, on half the line.
+    margin : float
+        Least share of g that the bounds between samples leave; not proven where it is not positive.
+    """
+
+    below: float
+    fixed: int
+    turns: int
+    samples: int
+    margin: float
+
+    @property
+    def proven(self) -> bool:
+        """Whether every arc is bounded in phase."""
+        return self.margin > 0.0
+
+    @property
+    def number(self) -> int:
+        """Eigenvalues left of the line."""
+        return self.fixed + self.turns
+
+
+@dataclass(frozen=True)
+class FollowingRoots:
+    """Eigenvalues left of a line: real ones ascending, complex pairs, and their certificate."""
+
+    eigenvalues: list[Eigenvalue]
+    certificate: Certificate
+    complete: bool
+    """Whether as many were enclosed as were proven to be there."""
+
+
+Bracket = tuple[float, float, float, float]
+"""Two places with values of different signs, and these."""
+
+
+class Finder:
+    """Finds the eigenvalues of one chain.
+
+    Parameters
+    ----------
+    chain : Chain
+        With an end that follows.
+    fixed : callable
+    zeros : int
+        Eigenvalues that are zero by the supports.
+    width : float
+        Relative width of brackets in omega^2.
+    """
+
+    def __init__(self, chain: Chain, fixed: FixedEigenvalues, zeros: int, width: float) -> None:
+        self.following, self.fixed, self.zeros, self.width = Following(chain), fixed, zeros, width
+        self.scale = omega2_scale(chain)
+
+    def find(self, wanted: int) -> FollowingRoots:
+        """Find the lowest eigenvalues, `wanted` at the least."""
+        certificate, poles = self._certify(wanted)
+        places, values = self._scan(certificate.below, poles)
+        missing = certificate.number - self.zeros
+        brackets, floor = _changes(places, values), self._floor
+        while len(brackets) > missing and floor < 1e-5 * self.scale:  # rounding beside zero
+            floor *= 10
+            keep = np.abs(places) > floor
+            brackets = _changes(places[keep], values[keep])
+        found = self._real(brackets)
+        found += [Eigenvalue(0, 0.0, (-floor, floor), (0, 0))] * self.zeros
+        if len(brackets) < missing:
+            found += self._missing(missing - len(brackets), found, poles, certificate.below)
+        return FollowingRoots(_ordered(found), certificate, len(found) == certificate.number)
+
+    # --- how many ---------------------------------------------------------------------------------
+
+    def _certify(self, wanted: int) -> tuple[Certificate, list[Eigenvalue]]:
+        """Return a proof for a line above `wanted` eigenvalues, and those of fixed directions."""
+        poles = self.fixed(wanted + 2)
+        best: Certificate | None = None
+        for below in range(wanted, wanted + _GAPS):
+            if len(poles) < below + 1:
+                poles = self.fixed(below + 2)
+            low, high = poles[below - 1].bracket[1], poles[below].bracket[0]
+            if not high > 0 or not low < high:
+                continue
+            low = max(low, 0.0)
+            for share in (0.5, 0.35, 0.65):
+                R = (low**0.25 + (high**0.25 - low**0.25) * share) ** 4
+                found = self._turns(R, low, high, poles[0].bracket[0])
+                certificate = Certificate(R, below, found.number, found.samples, found.margin)
+                if found.proven and certificate.number >= wanted:
+                    return certificate, poles
+                if found.proven:
+                    break
+                best = best or certificate
+        if best is None:
+            raise CountingError("no line was found above the eigenvalues that are wanted")
+        return best, poles
+
+    def _turns(self, R: float, low: float, high: float, lowest: float) -> Turns:
+        """Count turns of g along a line in a gap between eigenvalues of fixed directions."""
+        distance = 1.5 * max(R, -2 * lowest)
+        while True:
+            near = float(beyond(self.following.far_off(np.array([distance])), _SINE)[0])
+            if near < _ENOUGH or distance > 1e9 * R:
+                break
+            distance *= 4
+        gap = min(R - low, high - R)
+
+        def evaluate(at: Complex) -> Samples:
+            return self.following.samples(at, np.hypot(gap, at.imag))
+
+        height = math.sqrt(distance**2 - R**2)
+        return left_of(evaluate, R, 0.3 * gap, height, near)
+
+    # --- the real ones ----------------------------------------------------------------------------
+
+    @cached_property
+    def _floor(self) -> float:
+        return 1e-14 * self.scale
+
+    def _scan(self, R: float, poles: list[Eigenvalue]) -> tuple[Array, Array]:
+        """Return places on the axis up to R, and the characteristic function, zeros divided out."""
+        lowest = -max(self.scale, -2 * poles[0].omega2)
+        while beyond(self.following.far_off(np.array([-lowest])), 1.0)[0] > _ENOUGH:
+            lowest *= 2
+        inside = [p.omega2 for p in poles if p.omega2 < R]
+        number = _DENSE * (len(inside) + 2)
+        roots = np.linspace(-((-lowest) ** 0.25), R**0.25, 2 * number)
+        places = np.sign(roots) * roots**4
+        places = np.concatenate([places, [lowest, R], 1.0001 * np.array(inside), self._near_zero()])
+        places = np.unique(places[(places >= lowest) & (places <= R)])
+        places = places[np.abs(places) >= self._floor]
+        return places, self.divided(places)
+
+    def _near_zero(self) -> Array:
+        steps = self.scale * 10.0 ** np.arange(-13, 1)
+        return np.concatenate([-steps, steps])
+
+    def divided(self, places: Array) -> Array:
+        """Return the characteristic function over omega^2 to the number of its zeros there."""
+        sign = np.sign(places) if self.zeros % 2 else 1.0
+        return np.asarray(self.following.values(places) * sign)
+
+    def _real(self, brackets: list[Bracket]) -> list[Eigenvalue]:
+        """Shrink brackets to their width, all side by side."""
+        if not brackets:
+            return []
+        low, high, at_low, at_high = np.array(brackets).T.copy()
+        guess, old = (low + high) / 2, np.full(len(low), np.inf)
+        last, at_last = low.copy(), at_low.copy()
+        for turn in range(_PASSES):
+            size = np.maximum(self.width * np.maximum(np.abs(low), np.abs(high)), 2 * self._floor)
+            open_ = np.flatnonzero(high - low > size * (1 + 1e-9))
+            if not len(open_):
+                break
+            guess = _inverse_quadratic(low, high, at_low, at_high, last, at_last)
+            slow = (high - low > 0.5 * old) & (turn % 3 == 2)
+            guess = np.where(slow, _middle(low, high), guess)
+            old = high - low
+            points = []
+            for k in open_:
+                beside = np.array([guess[k] - 0.45 * size[k], guess[k] + 0.45 * size[k]])
+                points.append(beside[(beside > low[k]) & (beside < high[k])])
+            flat = np.concatenate(points)
+            if not len(flat):
+                break
+            values, start = self.divided(flat), 0
+            for k, own in zip(open_, points, strict=True):
+                for x, y in zip(own, values[start : start + len(own)], strict=True):
+                    if not low[k] < x < high[k]:
+                        continue
+                    if y * at_low[k] > 0:
+                        last[k], at_last[k] = low[k], at_low[k]
+                        low[k], at_low[k] = x, y
+                    else:
+                        last[k], at_last[k] = high[k], at_high[k]
+                        high[k], at_high[k] = x, y
+                start += len(own)
+        root = np.clip(_secant(low, high, at_low, at_high), low, high)
+        return [
+            Eigenvalue(0, float(x), (float(a), float(b)), (0, 0))
+            for x, a, b in zip(root, low, high, strict=True)
+        ]
+
+    # --- pairs that are missing -------------------------------------------------------------------
+
+    def _missing(
+        self, number: int, found: list[Eigenvalue], poles: list[Eigenvalue], R: float
+    ) -> list[Eigenvalue]:
+        """Find eigenvalues that change no sign: pairs, complex or too near to be told apart."""
+        known: list[complex] = [value.omega2 for value in found]
+        more: list[Eigenvalue] = []
+        failed: list[complex] = []
+        for start in self._starts(poles, R):
+            root = self._newton(start, known, poles, R) if len(more) < number else None
+            if root is None or any(abs(root - z) < 1e-6 * abs(z) for z in failed):
+                continue
+            new = self._enclosed(root, poles)
+            more += new
+            failed += [] if new else [root]
+            known += [complex(v.omega2, v.imaginary) for v in new]
+        return more
+
+    def _starts(self, poles: list[Eigenvalue], R: float) -> list[complex]:
+        inside = sorted(abs(p.omega2) for p in poles if p.omega2 < R)
+        middle = [(a + b) / 2 for a, b in pairwise(inside)] + inside
+        return [complex(x, y * max(x, self.scale)) for y in (0.1, 0.5, 0.02) for x in middle]
+
+    def _newton(
+        self, start: complex, known: list[complex], poles: list[Eigenvalue], R: float
+    ) -> complex | None:
+        """Return a zero of g, with what is known divided out, by secants through three places."""
+        inside = np.array([p.omega2 for p in poles if p.omega2 < R])
+        unit = max(R, self.scale)
+
+        def deflated(z: Complex) -> Complex:
+            value = self.following.ratio(z)
+            for pole in inside:
+                value = value * ((z - pole) / unit)
+            for root in known:
+                value = value / ((z - root) / unit)
+            return value
+
+        x = np.array([start, start * (1 + 1e-3), start * (1 + 1e-3j)])
+        with np.errstate(all="ignore"):
+            y = deflated(x)
+            for _ in range(_PASSES):
+                step = _muller(x, y)
+                new = x[2] + step
+                if not np.isfinite(new):
+                    return None
+                if new.imag < 0:
+                    new = new.conjugate()
+                if abs(new - x[2]) <= 1e-13 * abs(new):
+                    break
+                if abs(new.imag) < 1e-12 * abs(new):
+                    new = complex(new.real, 1e-12 * abs(new))
+                x, y = np.append(x[1:], new), np.append(y[1:], deflated(np.array([new])))
+            else:
+                return None
+        return complex(new) if new.real < 4 * R else None
+
+    def _enclosed(self, root: complex, poles: list[Eigenvalue]) -> list[Eigenvalue]:
+        """Return an eigenvalue on the axis, or a pair in circles, with proof; none without."""
+        if root.imag < _ON_AXIS * abs(root):
+            single = self._on_axis(root.real)
+            if single:
+                return single
+        fixed = np.array([p.omega2 for p in poles])
+        radius, step = max(self.width * abs(root) / 2, 4 * self._floor), 1e-5 * root.imag
+        for _ in range(5):
+            if radius >= 0.5 * root.imag:
+                return self._together(root, poles)
+            if holds_one(lambda z: self._off_axis(z, fixed), root, radius, step):
+                edge = (root.real - radius, root.real + radius)
+                parts = (root.imag, -root.imag)
+                return [Eigenvalue(0, root.real, edge, (0, 0), part) for part in parts]
+            radius *= 8
+        return []
+
+    def _on_axis(self, root: float) -> list[Eigenvalue]:
+        """Bracket an eigenvalue that has a near neighbour on the axis."""
+        step = max(self.width * abs(root) / 2, 2 * self._floor) * 4.0 ** np.arange(8)
+        values = self.divided(np.concatenate([root - step, root + step]))
+        below, above = values[: len(step)], values[len(step) :]
+        apart = np.flatnonzero(below * above < 0)[:1]
+        return self._real([(root - step[k], root + step[k], below[k], above[k]) for k in apart])
+
+    def _together(self, root: complex, poles: list[Eigenvalue]) -> list[Eigenvalue]:
+        """Enclose two eigenvalues that are too near each other, and to the axis, to tell apart."""
+        fixed = np.array([p.omega2 for p in poles])
+        radius = max(4 * root.imag, self.width * abs(root))
+        for _ in range(4):
+            turns = around(
+                lambda z: self._off_axis(z, fixed), complex(root.real), radius, most=1000
+            )
+            inside = int(np.sum(np.abs(fixed - root.real) < radius))
+            if turns.proven and turns.number + inside == 2:
+                edge = (root.real - radius, root.real + radius)
+                return [Eigenvalue(0, root.real, edge, (0, 0))] * 2
+            radius *= 4
+        return []
+
+    def _off_axis(self, z: Complex, fixed: Array) -> Samples:
+        """Sample g; where a circle meets the axis it is bounded from just beside."""
+        reach = np.min(np.abs(z[:, None] - fixed), axis=1)
+        return self.following.samples(z + 1e-3j * reach * (np.abs(z.imag) < 1e-3 * reach), reach)
+
+
+def _ordered(found: list[Eigenvalue]) -> list[Eigenvalue]:
+    """Return eigenvalues numbered by omega^2, complex ones by (Im s)^2, then Re s."""
+    ordered = sorted(found, key=lambda value: (value.order, -value.imaginary))
+    return [
+        Eigenvalue(k + 1, v.omega2, v.bracket, (k, k + 1), v.imaginary)
+        for k, v in enumerate(ordered)
+    ]
+
+
+def _changes(places: Array, values: Array) -> list[Bracket]:
+    """Return the neighbours between which a value changes its sign."""
+    change = np.flatnonzero(values[1:] * values[:-1] <= 0)
+    rows = np.stack([places[:-1], places[1:], values[:-1], values[1:]], axis=1)[change]
+    return [(a, b, c, d) for a, b, c, d in rows.tolist()]
+
+
+def _middle(low: Array, high: Array) -> Array:
+    same = low * high > 0
+    with np.errstate(invalid="ignore"):
+        ratio = np.sign(low) * np.sqrt(low * high)
+    return np.where(same, ratio, (low + high) / 2)
+
+
+def _secant(low: Array, high: Array, a: Array, b: Array) -> Array:
+    gap = np.where(b == a, 1.0, b - a)
+    return np.asarray(np.where(b == a, (low + high) / 2, low - a * (high - low) / gap))
+
+
+def _inverse_quadratic(low: Array, high: Array, a: Array, b: Array, last: Array, c: Array) -> Array:
+    """Return where the parabola x(y) through three places is zero; the secant where it leaves."""
+    with np.errstate(all="ignore"):
+        x = (
+            low * b * c / ((a - b) * (a - c))
+            + high * a * c / ((b - a) * (b - c))
+            + last * a * b / ((c - a) * (c - b))
+        )
+    inside = (x > low) & (x < high)
+    return np.where(inside, x, _secant(low, high, a, b))
+
+
+def _muller(x: Complex, y: Complex) -> complex:
+    """Return the step from the last of three places to the nearest zero of their parabola."""
+    h1, h2 = x[1] - x[0], x[2] - x[1]
+    d1, d2 = (y[1] - y[0]) / h1, (y[2] - y[1]) / h2
+    a = (d2 - d1) / (h1 + h2)
+    b = a * h2 + d2
+    root = np.sqrt(b * b - 4 * a * y[2] + 0j)
+    below = b + root if abs(b + root) > abs(b - root) else b - root
+    return complex(-2 * y[2] / below)
