@@ -1,5 +1,7 @@
 """Tables of sections of wind-turbine programs, with numbers worked out by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -63,12 +65,18 @@ def test_sections_of_bmodes_and_their_closed_form(tmp_path):
     path = tmp_path / "secs.dat"
     path.write_text(BMODES)
     found = read_beam(path, "sections", Choices(("beam.ends.left=clamped",), length=20.0))
-    np.testing.assert_allclose(found.beam.radius_of_gyration, 2.0)
+    np.testing.assert_allclose(found.beam.rotary_inertia_per_length, 400.0)
+    edge = read_beam(path, "sections", Choices(plane=2, length=20.0)).beam
+    np.testing.assert_allclose(edge.rotary_inertia_per_length, 900.0)
     np.testing.assert_allclose(found.beam.axial_stiffness, 5e9)
     assert any("tw_iner" in note for note in found.notes)
-    f1 = solve_modes(found.beam, 1).frequencies_hz()[0]
+    assert any("flp_iner counts" in note for note in found.notes)
+    f1 = solve_modes(replace(found.beam, theory="euler_bernoulli"), 1).frequencies_hz()[0]
     # a uniform cantilever: 1.8751041^2 / (2 pi L^2) sqrt(EI/m)
     assert f1 == pytest.approx(1.875104069**2 / (2 * np.pi * 400) * np.sqrt(1e9 / 100), rel=1e-8)
+    # rotary inertia takes (r/L)^2/2 Int Y'^2/Int Y^2 in first order: 4.6478 for Y of mode 1, L = 1
+    with_rotary = solve_modes(found.beam, 1).frequencies_hz()[0]
+    assert with_rotary / f1 - 1 == pytest.approx(-0.5 * 4.6478 * 4 / 400, rel=0.05)
 
 
 CONCENTRATED = """\
@@ -107,16 +115,15 @@ def test_rotary_and_axial_columns_of_a_tower(tower):
     units = "(-) (kg/m) (Nm^2) (Nm^2) (Nm^2) (N) (kg m) (kg m)\n".replace("kg m)", "kg-m)")
     rows = "0 4000 4e11 4e11 3e11 6e10 1e5 2e5\n1 2000 2e11 2e11 1e11 3e10 5e4 1e5\n"
     tower.write_text("2 NTwInpSt\n" + head + units + rows)
-    for plane, r in ((1, 5.0), (2, np.sqrt(50.0))):
+    for plane, inertia in ((1, [1e5, 5e4]), (2, [2e5, 1e5])):
         found = read_beam(tower, "sections", Choices(plane=plane, length=80.0))
-        np.testing.assert_allclose(found.beam.radius_of_gyration, r)
+        np.testing.assert_allclose(found.beam.rotary_inertia_per_length, [inertia])
         np.testing.assert_allclose(found.beam.axial_stiffness, [[6e10, 3e10]])
         np.testing.assert_allclose(found.beam.torsional_stiffness, [[3e11, 1e11]])
         np.testing.assert_allclose(found.beam.polar_inertia_per_length, [[3e5, 1.5e5]])
     tower.write_text("2 NTwInpSt\n" + head + units + rows.replace("5e4", "0"))
     found = read_beam(tower, "sections", Choices(length=80.0))
-    assert found.beam.radius_of_gyration is None
-    assert any("twfainer" in note for note in found.notes)
+    np.testing.assert_allclose(found.beam.rotary_inertia_per_length, [[1e5, 0.0]])
 
 
 def test_units_are_read(tmp_path):

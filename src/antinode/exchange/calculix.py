@@ -1,11 +1,12 @@
 """A beam as an input file of CalculiX: B32R elements, its masses, springs and joints, and N.
 
 CalculiX makes a row of solid elements of a B32R. Each has a square section of depth
-`h = sqrt(12 EI/EA)` and the E and density that give EA and m; a large G leaves little shear. The
-inertia of turning sections stays, and with it what N does to the strain: all three are in the
-frequencies to expect. N is the preload of a static step, whose forces are the steps of N; supports
-along x move in it as N would have them. A node turns as a rigid section where a stub without mass
-branches off it, and shows its turn to masses and springs by equations.
+`h = sqrt(12 EI/EA)`, the E and density that give EA and m, and the G that gives kGA; of a beam that
+is rigid in shear a large one. The inertia of turning sections is that of solids, m EI/EA, and N
+does more to the strain: both are in the frequencies to expect. N is the preload of a static step,
+whose forces are the steps of N; supports along x move in it as N would have them. A node turns as
+a rigid section where a stub without mass branches off it, and shows its turn to masses and springs
+by equations.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.beam import Beam
 from antinode.errors import InputError
 from antinode.modes.result import ModalResult
 from antinode.version import __version__
@@ -25,6 +27,7 @@ from .mesh.analyses import Analysis
 from .mesh.expected import (
     Expected,
     comparable,
+    critical_factor,
     expected_buckling,
     expected_modes,
     header,
@@ -39,6 +42,10 @@ SOFT = 1e-9
 LIGHT = 1e-7
 """Density of a stub in that of the beam."""
 _RIGHT, _STUB, _POINT = 1_000_000, 2_000_000, 3_000_000
+
+
+Section = tuple[float, float, float, float]
+"""Depth, E, density and G of a section, in units of the file."""
 
 
 @dataclass
@@ -106,7 +113,22 @@ def write_calculix(
     result, notes = comparable(result, analysis)
     path.write_text(calculix_text(result, system, notes, analysis), encoding="ascii")
     say = "CalculiX's beams are solid: their sections have inertia when they turn, of EI/EA"
+    notes = (*notes, *_rotary_note(result.beam))
+    if result.beam.loss_factor is not None:
+        notes = (*notes, "loss_factor is left out: it would count in responses alone")
     return (f"CalculiX has no units: these are {system.words}", say, *notes)
+
+
+def _rotary_note(beam: Beam) -> tuple[str, ...]:
+    """Say where the rotary inertia of solids is not that of the beam."""
+    mesh = mesh_of(beam, 1)
+    if mesh.rotary is None:
+        return ()
+    ratio = mesh.mass * mesh.EI / mesh.EA / np.maximum(mesh.rotary, 1e-300)
+    if np.allclose(ratio, 1.0, rtol=1e-3):
+        return ()
+    low, high = np.min(ratio), np.max(ratio)
+    return (f"that is {low:.3g} to {high:.3g} times the rotary inertia of the beam",)
 
 
 def calculix_text(
@@ -118,9 +140,10 @@ def calculix_text(
     """Return the file as text."""
     beam, buckling = result.beam, analysis == "buckling"
     number = max((mode.number for mode in result.modes), default=1)
-    mesh = mesh_of(beam, max(ELEMENTS, 10 * number))
+    factor = critical_factor(beam) if buckling else 1.0
+    mesh = mesh_of(beam, max(ELEMENTS, 10 * number), factor=factor)
     if buckling:
-        expected = expected_buckling(beam, mesh, "solids")
+        expected = expected_buckling(factor, mesh, "solids")
     else:
         expected = expected_modes(result, mesh, "solids")
     lines = Lines(mesh, system, buckling)
@@ -141,10 +164,19 @@ def _comments(
     own = (
         f"Units: {system.words}. CalculiX itself has none.",
         f"Mesh: {mesh.count} B32R along x, bending in the plane x-y, made solid by CalculiX:",
-        f"with the inertia of turning sections, and little shear (G is {mesh.shear_modulus:.3g} E)",
+        f"with the inertia of turning sections, and {_shear_words(mesh)}",
     )
     lines = [*header(title, notes, expected, __version__)]
     yield from (f"** {line}" for line in (lines[0], *own, *lines[1:]))
+
+
+def _shear_words(mesh: Mesh) -> str:
+    """Say how much the elements give in shear."""
+    if mesh.kGA is None:
+        return f"little shear (G is {mesh.shear_modulus:.3g} E)"
+    if mesh.beam.shear_form == "engesser" or mesh.beam.is_unloaded:
+        return "shear: G of kGA"
+    return "shear: G of kGA + N, by Haringx"
 
 
 def _real(value: float) -> str:
@@ -166,7 +198,7 @@ def _beam(lines: Lines) -> None:
     lines.add("*NODE,NSET=BEAM", *(f"{k + 1},{_real(v * length)},0.,0." for k, v in enumerate(x)))
     for node in mesh.joints:
         lines.add(f"{_sides(mesh, node)[1]},{_real(mesh.x[node] * length)},0.,0.")
-    alike: dict[tuple[float, float, float], list[int]] = {}
+    alike: dict[Section, list[int]] = {}
     for k in range(mesh.count):
         alike.setdefault(_section(mesh, k, lines.system), []).append(k)
     for number, (section, elements) in enumerate(alike.items(), start=1):
@@ -177,22 +209,22 @@ def _beam(lines: Lines) -> None:
     lines.elements = mesh.count
 
 
-def _section(mesh: Mesh, k: int, system: System) -> tuple[float, float, float]:
-    """Return depth, E and density of the section of an element."""
+def _section(mesh: Mesh, k: int, system: System) -> Section:
+    """Return depth, E, density and G of the section of an element."""
     depth = float(np.sqrt(12 * mesh.EI[k] / mesh.EA[k]))
-    E, rho = float(mesh.EA[k]) / depth**2, float(mesh.mass[k]) / depth**2
+    E, rho, G = (float(v[k]) / depth**2 for v in (mesh.EA, mesh.mass, mesh.solid_shear))
     pressure, density = system.force / system.length**2, system.mass / system.length**3
-    return depth * system.length, E * pressure, rho * density
+    return depth * system.length, E * pressure, rho * density, G * pressure
 
 
-def _material(lines: Lines, name: str, section: tuple[float, float, float], towards: str) -> None:
-    depth, E, rho = (_real(value) for value in section)
-    G = _real(lines.mesh.shear_modulus * section[1])
+def _material(lines: Lines, name: str, section: Section, towards: str) -> None:
+    depth, E, rho, G = (_real(value) for value in section)
+    stiff = _real(lines.mesh.shear_modulus * section[1])  # else the solids would twist
     lines.add(
         f"*MATERIAL,NAME={name}",
         "*ELASTIC,TYPE=ENGINEERING CONSTANTS",
-        f"{E},{E},{E},0.,0.,0.,{G},{G}",
-        G,
+        f"{E},{E},{E},0.,0.,0.,{G},{stiff}",
+        stiff,
         "*DENSITY",
         rho,
         f"*BEAM SECTION,ELSET={name},MATERIAL={name},SECTION=RECT",
@@ -212,6 +244,15 @@ def _attach(lines: Lines) -> None:
             _stub(lines, node, side)
     for node, item in mesh.masses:
         _mass(lines, node, item.mass, item.offset, item.rotary_inertia)
+    for node, freedom, k in mesh.bedding:
+        _spring(
+            lines, [(_sides(mesh, node)[0], freedom)], k * _stiffness_unit(freedom, lines.system)
+        )
+    for node, mass in mesh.at_nodes(mesh.added):
+        point = lines.point(node)
+        lines.tie(point, LATERAL, (_sides(mesh, node)[0], LATERAL, 1.0))
+        lines.add("*BOUNDARY", f"{point},1,1", f"{point},3,3")
+        _inert(lines, point, mass * lines.system.mass)
     for node, freedom, k in springs:
         moving = _moving(lines, node, _sides(mesh, node)[0], freedom)
         _spring(lines, [moving], k * _stiffness_unit(freedom, lines.system))
@@ -225,12 +266,12 @@ def _stiffness_unit(freedom: int, system: System) -> float:
 
 def _stub(lines: Lines, node: int, side: int) -> None:
     """Append a stub, which makes a rigid section of a node."""
-    depth, E, rho = _section(lines.mesh, min(node, lines.mesh.count - 1), lines.system)
+    depth, E, rho, _ = _section(lines.mesh, min(node, lines.mesh.count - 1), lines.system)
     x, first = _real(lines.mesh.x[node] * lines.system.length), _STUB + 2 * lines.elements
     lines.add("*NODE,NSET=BEAM", f"{first},{x},{_real(depth / 2)},0.")
     lines.add(f"{first + 1},{x},{_real(depth)},0.")
     name = lines.element("B32R", (side, first, first + 1))
-    _material(lines, name, (depth, E, LIGHT * rho), "1.,0.,0.")
+    _material(lines, name, (depth, E, LIGHT * rho, E * lines.mesh.shear_modulus), "1.,0.,0.")
 
 
 def _moving(lines: Lines, node: int, side: int, freedom: int) -> tuple[int, int]:

@@ -148,12 +148,9 @@ def read_sections(
     if kind.axial in columns:
         stations["axial_stiffness"] = columns[kind.axial].tolist()
     stations |= (torsion := _torsion(kind, columns))
-    left: list[str] = []
-    if kind.inertia and np.any(inertia := columns.get(kind.inertia[plane - 1], np.zeros(1))):
-        if np.all(inertia > 0) and np.all(columns[kind.mass] > 0):
-            stations["radius_of_gyration"] = np.sqrt(inertia / columns[kind.mass]).tolist()
-        else:
-            left.append(kind.inertia[plane - 1])
+    turning = columns.get(kind.inertia[plane - 1]) if kind.inertia else None
+    if turning is not None and np.any(turning):
+        stations["rotary_inertia_per_length"] = turning.tolist()
     table: dict[str, Any] = {
         "name": path.stem[:200],
         "interpolation": "linear",
@@ -161,7 +158,7 @@ def read_sections(
     }
     if masses := _concentrated(lines, end, kind, path):
         table["point_masses"] = [{"x": at * length, "mass": mass} for at, mass in masses]
-    return table, _notes(kind, columns, plane, left, bool(torsion))
+    return table, _notes(kind, columns, plane, torsion=bool(torsion))
 
 
 def _torsion(kind: Kind, columns: Mapping[str, Array]) -> dict[str, list[float]]:
@@ -227,12 +224,13 @@ def _check_count(rows: int, wanted: float, where: str) -> None:
 
 
 def _notes(
-    kind: Kind, columns: Mapping[str, Array], plane: int, more: Sequence[str], torsion: bool
+    kind: Kind, columns: Mapping[str, Array], plane: int, *, torsion: bool
 ) -> tuple[str, ...]:
     left = [name for name in kind.unmodelled if name in columns and np.any(columns[name])]
     left = [name for name in left if not (torsion and name == kind.torsion)]
-    left += more
     notes = [f"{kind.name}, {kind.stiffness[plane - 1]}: plane {plane} of bending (--plane)"]
+    if kind.inertia and np.any(columns.get(kind.inertia[plane - 1], 0.0)):
+        notes.append(f"{kind.inertia[plane - 1]} counts as rotary inertia")
     if left:
         notes.append(f"left out, since a beam in one plane has none: {', '.join(left)}")
     return tuple(notes)

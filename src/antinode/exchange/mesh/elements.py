@@ -1,7 +1,8 @@
 """Matrices of plane beam elements as solvers have them: three freedoms a node, along x, y, about z.
 
-`bars`: the CBAR of NASTRAN's. Cubic shape functions, half of the mass at either end, none that
-turns. N acts as a chain of taut strings, `N/h (v2 - v1)^2`, or by the shape functions.
+`bars`: the CBAR of NASTRAN's. Cubic shape functions, shear by `phi = 12 EI/(kGA h^2)`, half of the
+mass and of the rotary inertia at either end. N acts as a chain of taut strings,
+`N/h (v2 - v1)^2`, or by the shape functions.
 `solids`: the B32R of CalculiX, a row of solid elements. Three nodes, quadratic, two points of
 integration, shear and rotary inertia of the section. Strain is Green's: after a linear static step
 a fibre shortened by `e = N/EA` has `(1 - 3 e)` times its stiffness, and a section that turns by psi
@@ -12,7 +13,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -36,17 +37,32 @@ class Matrices:
     G: Array
 
 
-def bar(h: float, EI: float, EA: float, m: float, N: float, *, strings: bool) -> Matrices:
+class Bar(NamedTuple):
+    """An element: length, stiffness, mass, N, shear (inf is rigid) and rotary inertia."""
+
+    h: float
+    EI: float
+    EA: float
+    m: float
+    N: float
+    kGA: float
+    rotary: float
+
+
+def bar(own: Bar, *, strings: bool) -> Matrices:
     """Return an element of two nodes."""
+    h, EI, EA, m, N = own[:5]
     K, G = np.zeros((6, 6)), np.zeros((6, 6))
     bending = np.ix_([1, 2, 4, 5], [1, 2, 4, 5])
-    K[bending] = EI / h**3 * _cubic(h, 12, 6, 4, 2)
+    phi = 12 * EI / (own.kGA * h**2)
+    K[bending] = EI / ((1 + phi) * h**3) * _cubic(h, 12, 6, 4 + phi, 2 - phi)
     K[np.ix_([0, 3], [0, 3])] = EA / h * np.array([[1, -1], [-1, 1]])
     if strings:
         G[np.ix_([1, 4], [1, 4])] = N / h * np.array([[1, -1], [-1, 1]])
     else:
         G[bending] = N / (30 * h) * _cubic(h, 36, 3, 4, -1)
-    return Matrices(K, np.diag(m * h / 2 * np.array([1, 1, 0, 1, 1, 0])), G)
+    turning = own.rotary / m
+    return Matrices(K, np.diag(m * h / 2 * np.array([1, 1, turning, 1, 1, turning])), G)
 
 
 def _cubic(h: float, a: float, b: float, c: float, d: float) -> Array:
@@ -60,10 +76,12 @@ def _cubic(h: float, a: float, b: float, c: float, d: float) -> Array:
     )
 
 
-def solid(
-    h: float, EI: float, EA: float, m: float, N: float, *, G_in_E: float, strained: bool
-) -> Matrices:
-    """Return an element of three nodes; strained by N, or about to be."""
+def solid(own: Bar, *, strained: bool) -> Matrices:
+    """Return an element of three nodes; strained by N, or about to be.
+
+    Its rotary inertia is that of a solid, m EI/EA.
+    """
+    h, EI, EA, m, N, kGA, _ = own
     K, M, G = np.zeros((9, 9)), np.zeros((9, 9)), np.zeros((9, 9))
     gyration2, e = EI / EA, N / EA if strained else 0.0
     for s in (-1 / math.sqrt(3), 1 / math.sqrt(3)):
@@ -78,7 +96,7 @@ def solid(
             * (1 - 3 * e)
             * (EA * np.outer(stretch, stretch) + EI * np.outer(curvature, curvature))
         )
-        K += w * G_in_E * EA * np.outer(shear, shear)
+        K += w * kGA * np.outer(shear, shear)
         G += w * N * np.outer(slope, slope)
         if not strained:
             G += w * N * gyration2 * np.outer(curvature, curvature)

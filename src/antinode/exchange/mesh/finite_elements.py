@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +14,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from antinode.arrays import Array
 from antinode.beam.families import BENDING, FAMILIES, LONGITUDINAL, FamilyName
 
-from .elements import Kind, Matrices, bar, solid
+from .elements import Bar, Kind, Matrices, bar, solid
 from .mesh import AXIAL, LATERAL, TURN, Mesh
 
 _COLUMN = {AXIAL: 0, LATERAL: 1, TURN: 2}
@@ -119,10 +120,12 @@ def _freedoms(mesh: Mesh, k: int, right: dict[int, int], points: int, kind: Kind
 
 
 def _element(mesh: Mesh, k: int, kind: Kind, *, strained: bool) -> Matrices:
-    of = (mesh.lengths[k], mesh.EI[k], mesh.EA[k], mesh.mass[k], mesh.N[k])
+    of = mesh.lengths[k], mesh.EI[k], mesh.EA[k], mesh.mass[k], mesh.N[k]
     if kind == "solids":
-        return solid(*of, G_in_E=mesh.shear_modulus, strained=strained)
-    return bar(*of, strings=kind == "bars by strings")
+        return solid(Bar(*of, mesh.solid_shear[k], 0.0), strained=strained)
+    kGA = math.inf if mesh.kGA is None else mesh.kGA[k]
+    rotary = 0.0 if mesh.rotary is None else mesh.rotary[k]
+    return bar(Bar(*of, kGA, rotary), strings=kind == "bars by strings")
 
 
 def _masses(mesh: Mesh) -> list[tuple[Any, Array]]:
@@ -131,6 +134,9 @@ def _masses(mesh: Mesh) -> list[tuple[Any, Array]]:
         m, d = item.mass, item.offset
         block = np.array([[m, 0, 0], [0, m, m * d], [0, m * d, m * d * d + item.rotary_inertia]])
         parts.append((3 * node + np.arange(3), block))
+    lateral = _COLUMN[LATERAL]
+    for node, mass in mesh.at_nodes(mesh.added):
+        parts.append((np.array([3 * node + lateral]), np.array([[mass]])))
     return parts
 
 
@@ -138,7 +144,7 @@ def _springs(mesh: Mesh, right: dict[int, int]) -> list[tuple[Any, Array]]:
     """Return springs to the ground, and what gives way at joints."""
     parts: list[tuple[Any, Array]] = [
         (np.array([3 * n + _COLUMN[f]]), np.array([[k]]))
-        for n, f, k in mesh.springs
+        for n, f, k in [*mesh.springs, *mesh.bedding]
         if f in _COLUMN
     ]
     for node, freedom, compliance in _gaps(mesh):

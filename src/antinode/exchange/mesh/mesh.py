@@ -9,11 +9,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers
 from antinode.beam.attachments import Attachment, Dashpot, Joint, PointMass, Spring
 from antinode.beam.beam import Beam
 from antinode.beam.ends import AxialEnd, Ends
-from antinode.beam.families import LONGITUDINAL, TORSION, tells
+from antinode.beam.families import BENDING, FAMILIES, LONGITUDINAL, TORSION, tells
 
 Item = TypeVar("Item", PointMass, Spring, Joint)
 
@@ -38,6 +38,14 @@ class Mesh:
     mass, EI, EA, N : array, shape (n,)
     GJ, inertia : array, shape (n,), optional
         Torsional stiffness [N m^2] and polar inertia per length [kg m], of a mesh that twists.
+    kGA : array, shape (n,), optional
+        Of elements that take N and shear by Engesser [N]; inf is rigid. None: rigid in shear.
+    rotary : array, shape (n,), optional
+        Rotary inertia per length [kg m].
+    foundation, added : array, shape (n,), optional
+        Stiffness of a foundation [N/m^2], and mass per length that moves sideways alone [kg/m].
+    loss : array, shape (n,), optional
+        Loss factor.
     """
 
     beam: Beam
@@ -48,6 +56,11 @@ class Mesh:
     N: Array
     GJ: Array | None = None
     inertia: Array | None = None
+    kGA: Array | None = None
+    rotary: Array | None = None
+    foundation: Array | None = None
+    added: Array | None = None
+    loss: Array | None = None
 
     @property
     def count(self) -> int:
@@ -103,6 +116,11 @@ class Mesh:
         """Finite springs to the ground: node, freedom, stiffness."""
         return [row for row in self._all_springs() if 0 < row[2] < math.inf]
 
+    @property
+    def bedding(self) -> list[tuple[int, int, float]]:
+        """The foundation as springs at the nodes: node, freedom, stiffness."""
+        return [(node, LATERAL, k) for node, k in self.at_nodes(self.foundation)]
+
     def _all_springs(self) -> list[tuple[int, int, float]]:
         rows = []
         for node, item in self.attached(Spring):
@@ -126,11 +144,21 @@ class Mesh:
             (node, freedom) for node, freedom, k in self._all_springs() if k == math.inf
         }
 
-    @property
-    def lumps(self) -> tuple[Array, Array]:
-        """Polar inertia of the halves of elements, to the left and right of each node [kg m^2]."""
-        half = np.zeros(self.count) if self.inertia is None else self.inertia * self.lengths / 2
+    def lumped(self, per_length: Array | None) -> tuple[Array, Array]:
+        """Return what the halves of elements have, to the left and right of each node."""
+        half = np.zeros(self.count) if per_length is None else per_length * self.lengths / 2
         return np.append(0.0, half), np.append(half, 0.0)
+
+    def at_nodes(self, per_length: Array | None) -> list[tuple[int, float]]:
+        """Return what of a property per length is not zero at each node, both halves together."""
+        whole = np.sum(self.lumped(per_length), axis=0)
+        return [(node, float(whole[node])) for node in np.flatnonzero(whole).tolist()]
+
+    @cached_property
+    def solid_shear(self) -> Array:
+        """The kGA of solid elements [N]: next to rigid where the beam is rigid."""
+        rigid = self.shear_modulus * self.EA
+        return rigid if self.kGA is None else np.where(np.isinf(self.kGA), rigid, self.kGA)
 
     def as_bar(self) -> Mesh:
         """Return the bar whose motion along x is this mesh's about x."""
@@ -178,8 +206,12 @@ def _along(item: Attachment) -> Attachment:
     return Joint(item.x, axial=item.torsional)
 
 
-def mesh_of(beam: Beam, count: int, *, twists: bool = False) -> Mesh:
-    """Return a beam as uniform elements, at least so many, with breakpoints at their ends."""
+def mesh_of(beam: Beam, count: int, *, twists: bool = False, factor: float = 1.0) -> Mesh:
+    """Return a beam as uniform elements, at least so many, with breakpoints at their ends.
+
+    Elements take N and shear by Engesser. By Haringx that is a kGA larger by N, which `factor`
+    multiplies.
+    """
     pieces = np.ceil(np.diff(beam.x) / beam.length * count - 1e-9).astype(int).clip(1)
     k = np.repeat(np.arange(len(pieces)), pieces)
     within = np.concatenate([np.arange(n) for n in pieces])
@@ -191,14 +223,56 @@ def mesh_of(beam: Beam, count: int, *, twists: bool = False) -> Mesh:
         return np.asarray(np.mean(sides, axis=0) ** power)
 
     EI, twists = mean("bending_stiffness", -1), twists and tells(beam, TORSION)
-    has_EA = beam.axial_stiffness is not None
+    mass, used = mean("mass_per_length"), FAMILIES[BENDING].used(beam)
+    N = np.mean([beam.axial_force_at(k, (within + g) * size) for g in _GAUSS], axis=0)
+    rotary = _rotary(beam, used, k, within, size)
+    if beam.axial_stiffness is not None:
+        EA = mean("axial_stiffness", -1)
+    elif rotary is not None and np.all(rotary > 0):
+        EA = EI * mass / rotary
+    else:
+        EA = EI / (SLENDER * beam.length) ** 2
     return Mesh(
         beam,
         x,
-        mean("mass_per_length"),
+        mass,
         EI,
-        mean("axial_stiffness", -1) if has_EA else EI / (SLENDER * beam.length) ** 2,
-        np.mean([beam.axial_force_at(k, (within + g) * size) for g in _GAUSS], axis=0),
+        EA,
+        N,
         mean("torsional_stiffness", -1) if twists else None,
         mean("polar_inertia_per_length") if twists else None,
+        _shear(beam, factor, k, within, size) if "shear_stiffness" in used else None,
+        rotary,
+        mean("foundation_stiffness") if "foundation_stiffness" in used else None,
+        mean("added_mass_per_length") if "added_mass_per_length" in used else None,
+        None if beam.loss_factor is None else mean("loss_factor"),
     )
+
+
+def _shear(beam: Beam, factor: float, k: Integers, within: Integers, size: Array) -> Array:
+    """Return kGA as Engesser's elements have it."""
+    more = 0.0 if beam.shear_form == "engesser" else factor
+    flexibility = [
+        1 / (beam.column_at("shear_stiffness", k, t) + more * beam.axial_force_at(k, t))
+        for t in ((within + g) * size for g in _GAUSS)
+    ]
+    with np.errstate(divide="ignore"):
+        return np.asarray(1 / np.mean(flexibility, axis=0))
+
+
+def _rotary(
+    beam: Beam, used: tuple[str, ...], k: Integers, within: Integers, size: Array
+) -> Array | None:
+    """Return the rotary inertia that counts; None if there is none."""
+    places = [(within + g) * size for g in _GAUSS]
+    if "rotary_inertia_per_length" in used:
+        rows = [beam.column_at("rotary_inertia_per_length", k, t) for t in places]
+    elif "radius_of_gyration" in used:
+        rows = [
+            beam.column_at("mass_per_length", k, t)
+            * beam.column_at("radius_of_gyration", k, t) ** 2
+            for t in places
+        ]
+    else:
+        return None
+    return np.asarray(np.mean(rows, axis=0))

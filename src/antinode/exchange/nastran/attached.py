@@ -8,7 +8,6 @@ motion, so it holds sideways alone, or all.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
 
@@ -22,6 +21,7 @@ from antinode.errors import InputError
 from .cards import Card
 from .deck import Subcase
 from .line import SAME, Line, left_end, linked, right_end
+from .lumped import Lumps
 from .model import Elastic, Model
 
 _ENDS: dict[tuple[bool, bool], End] = {
@@ -34,16 +34,16 @@ _FREEDOMS = ("axial", "lateral", "rotational", "torsional")
 
 
 def attachments_of(
-    model: Model, line: Line, modal: Subcase | None, lumps: Mapping[int, Card]
+    model: Model, line: Line, modal: Subcase | None, lumps: Lumps
 ) -> tuple[list[Attachment], dict[int, set[str]]]:
     """Return masses, springs and joints, and what the supports of the modes hold at each node.
 
-    Lumps of the bars' polar inertia by grid are none of the masses.
+    What is lumped of the bars is none of the masses and springs.
     """
-    own = [card for card in model.masses if lumps.get(card.integer(2)) is not card]
+    own = [card for card in model.masses if not lumps.are(card)]
     here = [card for card in own if _is_here(model, line, card.integer(2), card)]
     items: list[Attachment] = [_point_mass(model, line, card) for card in here]
-    items += springs_of(model, line)
+    items += springs_of(model, line, lumps)
     items += joints_of(model, line)
     sets = {number for number, *_ in model.supports}
     if modal is None and len(sets) > 1:
@@ -237,10 +237,11 @@ def _to_ground(model: Model, line: Line, spring: Elastic) -> Elastic:
     return replace(spring, ends=tuple(free)) if free else spring
 
 
-def springs_of(model: Model, line: Line) -> list[Spring]:
-    """Return the springs to the ground."""
+def springs_of(model: Model, line: Line, lumps: Lumps) -> list[Spring]:
+    """Return the springs to the ground that are no foundation."""
     found = []
-    for spring in (_to_ground(model, line, own) for own in model.springs):
+    own = (spring for spring in model.springs if not lumps.are(spring))
+    for spring in (_to_ground(model, line, item) for item in own):
         if is_joint(line, spring) or string_of(line, spring) is not None:
             continue
         if model.wanted and not all(grid in line.node for grid, _ in spring.ends):

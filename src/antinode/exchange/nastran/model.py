@@ -52,11 +52,12 @@ class Element:
 
 @dataclass(frozen=True)
 class Material:
-    """Of MAT1: E, G and density, in units of the file; G is 0 where it is not known."""
+    """Of MAT1: E, G (0 where it is not known), density, loss factor, in units of the file."""
 
     E: float
     G: float
     rho: float
+    loss: float = 0.0
 
     @property
     def nu(self) -> float:

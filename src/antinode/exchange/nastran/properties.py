@@ -1,15 +1,17 @@
 """Mass and stiffness along the elements of a deck, in units of the file.
 
-`EI = E I`, `EA = E A`, `m = rho A + NSM`, `GJ = G J`, `rho I_p = rho (I1 + I2) + NSI`.
+`EI = E I`, `EA = E A`, `m = rho A + NSM`, `GJ = G J`, `rho I_p = rho (I1 + I2) + NSI`,
+`kGA = K G A`, and with it the rotary inertia `rho I`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.checks import Theory
 from antinode.errors import InputError
 
 from .line import Line, left_end, section
@@ -26,19 +28,25 @@ def tables_of(model: Model, line: Line, plane: int) -> tuple[dict[str, Array], A
             fraction, table = 1 - fraction[::-1], table[::-1]
         x.append(line.x[k] + (line.x[k + 1] - line.x[k]) * fraction[1:])
         rows.append(np.stack([table[:-1], table[1:]], axis=2))
-    m, EI, EA, GJ, inertia = np.concatenate(rows).transpose(1, 0, 2)
+    m, EI, EA, GJ, inertia, kGA, rotary, loss = np.concatenate(rows).transpose(1, 0, 2)
     m = _with_mass(model, line, m)
     tables = {"mass_per_length": m * model.mass_factor, "bending_stiffness": EI}
     if np.all(EA > 0):
         tables["axial_stiffness"] = EA
     tables["torsional_stiffness"] = GJ
     tables["polar_inertia_per_length"] = inertia * model.mass_factor
+    if np.any(np.isfinite(kGA)):
+        tables["shear_stiffness"] = kGA
+        if np.any(rotary):
+            tables["rotary_inertia_per_length"] = rotary * model.mass_factor
+    if np.any(loss > 0):
+        tables["loss_factor"] = loss
     _check_product(model, line)
     return tables, np.concatenate(x)
 
 
 def section_rows(model: Model, element: Element, plane: int) -> tuple[Array, Array]:
-    """Return fractions of an element, and m, EI, EA, GJ and rho I_p there."""
+    """Return fractions of an element, and m, EI, EA, GJ, rho I_p, kGA, rho I and loss there."""
     own = section(model, element)
     if own.material not in model.materials:
         raise own.card.error(f"there is no MAT1 {own.material}")
@@ -53,7 +61,22 @@ def section_rows(model: Model, element: Element, plane: int) -> tuple[Array, Arr
             raise own.card.error(f"{what} is {np.min(values):g}; it must be positive")
     GJ = material.G * columns["J"]
     inertia = material.rho * (columns["I1"] + columns["I2"]) + columns["NSI"]
-    return own.at, np.stack([mass, EI, material.E * columns["A"], GJ, inertia], axis=1)
+    shear = material.G * columns["A"] * columns[f"K{plane}"]
+    kGA = np.where(shear > 0, shear, np.inf)
+    rotary, loss = material.rho * columns[f"I{plane}"], np.full(len(EI), material.loss)
+    rows = mass, EI, material.E * columns["A"], GJ, inertia, kGA, rotary, loss
+    return own.at, np.stack(rows, axis=1)
+
+
+def theory_of(line: Line, model: Model, tables: Mapping[str, Array]) -> Theory | None:
+    """Return the theory that the deck asks for; None for what the columns say.
+
+    Shear counts where a card gives K1 or K2 itself; by NASTRAN's defaults it only stands there.
+    """
+    own = [section(model, element) for element in line.elements]
+    if "shear_stiffness" not in tables or any(s.shear for s in own):
+        return None
+    return "euler_bernoulli"
 
 
 LIGHT = 1e-9
@@ -120,12 +143,17 @@ def _held_in_plane(line: Line, grid: int) -> bool:
     return rotational > 0 and out <= set(own.held)
 
 
-def notes_of(model: Model, line: Line, no_torsion: str | None) -> tuple[str, ...]:
+def notes_of(
+    model: Model, line: Line, no_torsion: str | None, shear: Theory | None
+) -> tuple[str, ...]:
     """Say what of the sections is left out, torsion with the reason."""
     own = [section(model, element) for element in line.elements]
     notes = {note: None for s in own for note in s.notes}
-    if any(np.any(s.columns["K1"]) for s in own):
-        notes["shear (K1, K2): the beam is one of Euler and Bernoulli"] = None
+    if shear == "euler_bernoulli":
+        notes[
+            "shear (K1, K2): no card gives it, so that kGA and rho I stand there and do not count; "
+            "--set beam.theory=timoshenko counts them"
+        ] = None
     if no_torsion:
         notes[f"torsion: {no_torsion}"] = None
     said: tuple[str, ...] = (f"left out: {'; '.join(notes)}",) if notes else ()

@@ -21,11 +21,12 @@ from antinode.text import counted, short
 from .attached import attachments_of, axial_force_of_strings, ends_of, inner_supports
 from .deck import Subcase, read_deck
 from .line import Line, line_of
+from .lumped import ADDED, FOUNDATION, INERTIA, ROTARY, lumps_of
 from .model import Model
 from .preload import preloaded, subcases_of
-from .properties import notes_of, tables_of
+from .properties import notes_of, tables_of, theory_of
 from .sorting import passed_notes, read_model
-from .torsion import GJ, INERTIA, lumps_of, missing, spread, without
+from .torsion import GJ, missing, without
 
 
 def read_nastran(
@@ -66,11 +67,13 @@ def read_nastran(
     strings = axial_force_of_strings(model, line)
     if np.any(strings):
         beam = _under(beam, line, strings, system)
+    if beam.shear_stiffness is not None and not beam.is_unloaded:
+        beam = replace(beam, shear_form="engesser")  # as the elements of solvers have it
     _pass_unused_supports(model, modal, static)
     notes = (
         *_notes(model, modal, static, system),
         *model.notes,
-        *notes_of(model, line, no_torsion),
+        *notes_of(model, line, no_torsion, beam.theory),
         *passed_notes(model),
     )
     return beam, notes
@@ -82,20 +85,23 @@ def _beam(
     """Return the beam without axial force, and why it has no torsion, if it has none."""
     tables, x = tables_of(model, line, plane)
     lumps = lumps_of(model, line, tables)
-    if lumps:
-        tables[INERTIA] = spread(line, lumps, x) * model.mass_factor
+    for name, table in lumps.spread(line, x).items():
+        tables[name] = table * (1.0 if name == FOUNDATION else model.mass_factor)
     items, held = attachments_of(model, line, modal, lumps)
     no_torsion = missing(line, tables, held, items)
     if no_torsion:
         tables = {name: tables[name] for name in tables if name not in (GJ, INERTIA)}
         held, items = without(held, items)
     ends = ends_of(held, len(line.x) - 1)
+    if not np.any(tables.get(ROTARY, 0.0)):
+        tables.pop(ROTARY, None)
     tapered = any(np.any(t[:, :-1] != t[:, 1:]) for t in tables.values())
     columns: dict[str, Any] = {n: table / _unit(n, system) for n, table in tables.items()}
     beam = Beam(
         x / system.length,
         ends=replace(ends, left_torsion=None, right_torsion=None) if no_torsion else ends,
         interpolation="linear" if tapered else "step",
+        theory=None if ROTARY in lumps.at else theory_of(line, model, tables),
         **columns,
     )
     own = (_in_si(item, system) for item in (*items, *inner_supports(held, line.x)))
@@ -117,6 +123,11 @@ def _unit(name: str, system: System) -> float:
         "axial_stiffness": system.force,
         GJ: system.force * system.length**2,
         INERTIA: system.mass * system.length,
+        ROTARY: system.mass * system.length,
+        "shear_stiffness": system.force,
+        ADDED: system.mass / system.length,
+        FOUNDATION: system.force / system.length**2,
+        "loss_factor": 1.0,
     }[name]
 
 

@@ -201,7 +201,7 @@ def _mat1(model: Model, card: Card) -> None:
         G = E / (2 * (1 + nu))
     if E is None:
         raise card.error("it gives no E; fill in field 2")
-    model.materials[number] = Material(E, G or 0.0, card.real(5, 0.0))
+    model.materials[number] = Material(E, G or 0.0, card.real(5, 0.0), card.real(8, 0.0))
 
 
 def _celas(model: Model, card: Card) -> None:

@@ -1,10 +1,4 @@
-"""Torsion of a deck: whether the beam has it, and the polar inertia lumped at its grids.
-
-Most solvers give a CBAR no polar inertia of its own, so a deck lumps it: one CONM2 at every grid,
-massless, with I11 alone. Where `rho (I1 + I2)` of the bars is zero, these are theirs, the first
-such card of a grid: of density I11 over half the lengths of the grid's elements, an element's being
-the mean of its grids'.
-"""
+"""Torsion of a deck: whether the beam has it, and why not."""
 
 from __future__ import annotations
 
@@ -17,42 +11,10 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.beam.attachments import Attachment, Joint, PointMass, Spring
 
-from .cards import Card
 from .line import SAME, Line
-from .model import Model
+from .lumped import INERTIA
 
-GJ, INERTIA = "torsional_stiffness", "polar_inertia_per_length"
-
-
-def lumps_of(model: Model, line: Line, tables: Mapping[str, Array]) -> dict[int, Card]:
-    """Return the cards that lump the polar inertia of the bars, by grid; none if not at each."""
-    if np.any(tables[INERTIA]):
-        return {}
-    found: dict[int, Card] = {}
-    for card in model.masses:
-        grid = card.integer(2)
-        if grid in line.node and _polar(line, grid, card) > 0:
-            found.setdefault(grid, card)
-    return found if len(found) == len(line.node) else {}
-
-
-def _polar(line: Line, grid: int, card: Card) -> float:
-    """Return the moment about the axis of a card that has no mass, and no other moment."""
-    place = {4: 9, 5: 11, 6: 14}[line.freedoms(grid, card)[3]]
-    others = [i for i in (4, *range(9, 15)) if i != place and card.real(i, 0.0)]
-    return 0.0 if others or card.text(3) not in ("", "0") else card.real(place, 0.0)
-
-
-def spread(line: Line, lumps: Mapping[int, Card], x: Array) -> Array:
-    """Return the lumped polar inertia per length on the intervals between breakpoints."""
-    half: dict[int, float] = {}
-    for k, element in enumerate(line.elements):
-        for grid in (element.left, element.right):
-            half[grid] = half.get(grid, 0.0) + (line.x[k + 1] - line.x[k]) / 2
-    density = {grid: _polar(line, grid, card) / half[grid] for grid, card in lumps.items()}
-    means = np.array([(density[e.left] + density[e.right]) / 2 for e in line.elements])
-    own = means[np.searchsorted(line.x, (x[1:] + x[:-1]) / 2) - 1]
-    return np.stack([own, own], axis=1)
+GJ = "torsional_stiffness"
 
 
 def missing(

@@ -1,7 +1,10 @@
 """A beam as a NASTRAN deck: CBAR elements, its masses, springs and joints, and N.
 
 The beam lies along x and bends in the plane x-y. Mass per length stands as NSM, half of it at
-either grid (COUPMASS -1): `A = EA/E`, `I1 = EI/E`. A deck for modes has one subcase. N stands in it
+either grid (COUPMASS -1): `A = EA/E`, `I1 = EI/E`, `K1 = kGA/(G A)`. What a bar has not of itself
+stands at the grids: rotary inertia as a massless CONM2, a foundation as a CELAS2 in freedom 2, and
+added mass as a CONM2 on a grid that follows in freedom 2 alone. Elements take N and shear by
+Engesser: a Haringx kGA stands there larger by N. A deck for modes has one subcase. N stands in it
 as a CELAS2 of `-N/h` across each element, between the freedoms 2 of its grids: what a taut string
 adds, read by every solver. For STATSUB and buckling axial forces load a subcase of their own, the
 steps of N from element to element; for buckling the beam is held along x at its left end alone.
@@ -10,17 +13,20 @@ Springs to the ground end at a grid that is held, since some solvers know no oth
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
+from antinode.arrays import Array
 from antinode.beam.families import TORSION
 from antinode.exchange.mesh.analyses import Analysis
 from antinode.exchange.mesh.elements import Kind
 from antinode.exchange.mesh.expected import (
     Expected,
     comparable,
+    critical_factor,
     expected_buckling,
     expected_modes,
     header,
@@ -39,6 +45,7 @@ MODULUS, POISSON = 2.1e11, 0.3
 _TWISTING: tuple[Analysis, ...] = ("modes", "unloaded")
 _STATIC, _MODAL, _LOAD, _METHOD, _MATERIAL = 1, 2, 1, 10, 1
 _RIGHT, _GROUND, _STRING, _LUMP = 1_000_000, 2_000_000, 3_000_000, 5_000_000
+_WATER, _BED = 6_000_000, 7_000_000
 _KINDS: dict[Analysis, Kind] = {
     "modes": "bars by strings", "unloaded": "bars", "statsub": "bars", "buckling": "bars",
 }  # fmt: skip
@@ -77,10 +84,11 @@ def nastran_text(
     beam = result.beam
     count = max(ELEMENTS, 20 * max((mode.number for mode in result.modes), default=1))
     twists = analysis in _TWISTING and bool(result.family(TORSION))
-    mesh = mesh_of(beam, count, twists=twists)
+    factor = critical_factor(beam) if analysis == "buckling" else 1.0
+    mesh = mesh_of(beam, count, twists=twists, factor=factor)
     kind = _KINDS[analysis]
     if analysis == "buckling":
-        expected = expected_buckling(beam, mesh, kind)
+        expected = expected_buckling(factor, mesh, kind)
     else:
         expected = expected_modes(result, mesh, kind)
     head = [*_comments(mesh, system, notes, expected), *_case_control(mesh, analysis)]
@@ -88,7 +96,6 @@ def nastran_text(
         card_text("PARAM", "COUPMASS", -1),
         card_text("PARAM", "GRDPNT", 0),
         card_text("EIGRL", _METHOD, None, None, expected.asked, None, None, expected.near),
-        card_text("MAT1", _MATERIAL, MODULUS * system.force / system.length**2, None, POISSON),
         *_line(mesh, system),
         *_attachments(mesh, system, axial=analysis != "buckling"),
         *_supports(mesh, analysis),
@@ -103,12 +110,27 @@ def _comments(
     title = "".join(c if c.isprintable() else " " for c in mesh.beam.name)[:60]
     own: tuple[str, ...] = (
         f"Units: {system.words}. NASTRAN itself has none.",
-        f"Mesh: {mesh.count} CBAR without shear, along x, bending in the plane x-y, lumped mass",
+        f"Mesh: {mesh.count} CBAR {_shear_words(mesh)}, along x, bending in the plane x-y, lumped "
+        "mass",
     )
-    if mesh.twists:
-        own += ("Polar inertia, which a CBAR has not of itself: massless CONM2 at every grid",)
+    lumped = {
+        "Polar inertia as massless CONM2": mesh.twists,
+        "Rotary inertia as massless CONM2": mesh.rotary is not None,
+        "Added mass, which moves in y alone, as RBE2 and CONM2": mesh.added is not None,
+        "Foundation as CELAS2": mesh.foundation is not None,
+    }
+    own += tuple(f"{what} at every grid" for what, there in lumped.items() if there)
     lines = [*header(title, notes, expected, __version__)]
     yield from (f"$ {line}" for line in (lines[0], *own, *lines[1:]))
+
+
+def _shear_words(mesh: Mesh) -> str:
+    """Say how the elements take shear, and N with it."""
+    if mesh.kGA is None:
+        return "without shear"
+    if mesh.beam.shear_form == "engesser" or mesh.beam.is_unloaded:
+        return "with shear (K1)"
+    return "with shear (K1 of kGA + N: Haringx)"
 
 
 def _case_control(mesh: Mesh, analysis: Analysis) -> Iterator[str]:
@@ -136,16 +158,34 @@ def _line(mesh: Mesh, system: System) -> Iterator[str]:
     held = "35" if mesh.twists else "345"
     for number, x in places:
         yield card_text("GRID", number, None, float(x * system.length), 0.0, 0.0, None, held)
-    shear, numbers = MODULUS / (2 * (1 + POISSON)), dict[tuple[float, ...], int]()
+    materials, numbers = (
+        dict[float, int](),
+        dict[tuple[int, float, float, float, float, float], int](),
+    )
     for k in range(mesh.count):
-        area = float(mesh.EA[k] / MODULUS * system.length**2)
-        inertia = float(mesh.EI[k] / MODULUS * system.length**4)
-        mass = float(mesh.mass[k] * system.mass / system.length)
-        J = 2 * inertia if mesh.GJ is None else float(mesh.GJ[k] / shear * system.length**4)
-        number = numbers.setdefault((area, inertia, J, mass), len(numbers) + 1)
-        yield card_text("CBAR", k + 1, number, *_grids(mesh, k), 0.0, 1.0, 0.0)
-    for (area, inertia, J, mass), number in numbers.items():
-        yield card_text("PBAR", number, _MATERIAL, area, inertia, inertia, J, mass)
+        loss = 0.0 if mesh.loss is None else float(mesh.loss[k])
+        material = materials.setdefault(loss, _MATERIAL + len(materials))
+        own = (material, *_section(mesh, k, system))
+        prop = numbers.setdefault(own, len(numbers) + 1)
+        yield card_text("CBAR", k + 1, prop, *_grids(mesh, k), 0.0, 1.0, 0.0)
+    E = MODULUS * system.force / system.length**2
+    for loss, material in materials.items():
+        damping = (None, None, None, loss) if loss else ()
+        yield card_text("MAT1", material, E, None, POISSON, *damping)
+    for (material, area, inertia, J, mass, K), prop in numbers.items():
+        shear = (*[None] * 9, K, K) if K else ()
+        yield card_text("PBAR", prop, material, area, inertia, inertia, J, mass, *shear)
+
+
+def _section(mesh: Mesh, k: int, system: System) -> tuple[float, float, float, float, float]:
+    """Return A, I, J, NSM and K of an element; K is 0 where it is rigid in shear."""
+    shear_modulus = MODULUS / (2 * (1 + POISSON))
+    area, inertia = float(mesh.EA[k] / MODULUS), float(mesh.EI[k] / MODULUS)
+    J = 2 * inertia if mesh.GJ is None else float(mesh.GJ[k] / shear_modulus)
+    kGA = math.inf if mesh.kGA is None else float(mesh.kGA[k])
+    K = 0.0 if math.isinf(kGA) else kGA / (shear_modulus * area)
+    mass = float(mesh.mass[k] * system.mass / system.length)
+    return area * system.length**2, inertia * system.length**4, J * system.length**4, mass, K
 
 
 def _grids(mesh: Mesh, k: int) -> tuple[int, int]:
@@ -169,6 +209,12 @@ def _attachments(mesh: Mesh, system: System, *, axial: bool) -> Iterator[str]:
     for node in sorted({node for node, _, _ in springs}):
         x = float(mesh.x[node] * system.length)
         yield card_text("GRID", _GROUND + node + 1, None, x, 0.0, 0.0, None, "123456")
+    if mesh.foundation is not None:
+        yield card_text("GRID", _BED, None, 0.0, 0.0, 0.0, None, "123456")
+    for node, freedom, k in mesh.bedding:
+        ends = (node + 1, freedom, _BED, freedom)
+        stiffness = k * _stiffness_unit(freedom, system)
+        yield card_text("CELAS2", _BED + node + 1, float(stiffness), *ends)
     for row, (node, freedom, k) in enumerate(springs):
         stiffness = k * _stiffness_unit(freedom, system)
         ends = (node + 1, freedom, _GROUND + node + 1, freedom)
@@ -178,15 +224,26 @@ def _attachments(mesh: Mesh, system: System, *, axial: bool) -> Iterator[str]:
 
 
 def _lumps(mesh: Mesh, system: System) -> Iterator[str]:
-    """Yield the polar inertia of the elements, half of it at either grid."""
-    if not mesh.twists:
-        return
-    left, right = (own * system.mass * system.length**2 for own in mesh.lumps)
-    parts = [(k + 1, left[k] + (k not in mesh.joints) * right[k]) for k in range(mesh.count + 1)]
-    parts += [(_RIGHT + k + 1, right[k]) for k in mesh.joints]
-    for row, (grid, inertia) in enumerate(parts):
-        cells = 0.0, None, None, None, None, *_inertias(float(inertia), 0.0)
-        yield card_text("CONM2", _LUMP + row + 1, grid, None, *cells)
+    """Yield what elements have not of themselves, half of it at either grid."""
+    square = system.mass * system.length**2
+    about = [_by_grid(mesh, of) for of in (mesh.inertia if mesh.twists else None, mesh.rotary)]
+    for row, grid in enumerate(about[0]):
+        own = [float(lumps[grid] * square) for lumps in about]
+        if any(own):
+            cells = 0.0, None, None, None, None, *_inertias(*own)
+            yield card_text("CONM2", _LUMP + row + 1, grid, None, *cells)
+    for node, mass in mesh.at_nodes(mesh.added):
+        follower, x = _WATER + node + 1, float(mesh.x[node] * system.length)
+        yield card_text("GRID", follower, None, x, 0.0, 0.0, None, "13456")
+        yield card_text("RBE2", follower, node + 1, LATERAL, follower)
+        yield card_text("CONM2", follower, follower, None, float(mass * system.mass))
+
+
+def _by_grid(mesh: Mesh, per_length: Array | None) -> dict[int, float]:
+    """Return the halves of elements at their grids, of which a joint has two."""
+    left, right = mesh.lumped(per_length)
+    parts = {k + 1: left[k] + (k not in mesh.joints) * right[k] for k in range(mesh.count + 1)}
+    return parts | {_RIGHT + k + 1: right[k] for k in mesh.joints}
 
 
 def _inertias(about_x: float, about_z: float) -> tuple[float | None, ...]:
