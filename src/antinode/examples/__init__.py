@@ -13,6 +13,7 @@ EXAMPLES = {
     "paper": "antinode modes {folder}case.toml",
     "sweep": "antinode sweep {folder}study.toml --plot {folder}sweep.png",
     "beam": "antinode beam {folder}beam.toml",
+    "drawing": "antinode beam {folder}beam.toml",
     "tower": "antinode beam {folder}beam.toml",
     "rocket": "antinode beam {folder}beam.toml",
     "drill_string": "antinode beam {folder}beam.toml",
