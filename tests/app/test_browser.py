@@ -103,7 +103,13 @@ def test_a_slider_by_the_mouse_and_the_link_it_leaves(tab, chromium, address):
         tab.page.mouse.move(track["x"] + part * track["width"], y)
     tab.page.mouse.up()
     tab.wait_for_change(before)
-    tab.page.wait_for_function("location.search.includes('thrust')")
+    tab.page.wait_for_function(
+        """() => {
+            const slider = document.querySelector(".an-slider[aria-label^='thrust']");
+            const set = JSON.parse(new URLSearchParams(location.search).get("set") ?? "{}");
+            return set["condition.thrust"] === 1000 * slider.getAttribute("aria-valuenow");
+        }"""
+    )
     tab.settle()
     again = Tab(chromium, tab.page.url)
     assert again.frequency(1) == tab.frequency(1)
@@ -232,6 +238,98 @@ def test_the_table_of_stations(tab, address):
     tab.page.get_by_role("button", name="Undo").click()
     tab.page.wait_for_selector(".an-main:not(.an-stale)")
     tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '3.24871'")
+    assert_clean(tab, address)
+
+
+def cell(tab, row, column):
+    """A cell of the table of stations."""
+    return tab.page.locator(f".ag-row[row-index='{row}'] [col-id='{column}']")
+
+
+def type_into(tab, row, column, text):
+    """Type into a cell of the table of stations."""
+    cell(tab, row, column).dblclick()
+    field = cell(tab, row, column).locator("input")
+    field.fill(text)
+    field.press("Enter")
+
+
+def has_text(tab, row, column, text):
+    """Wait until a cell shows a text."""
+    script = "([place, text]) => document.querySelector(place)?.innerText === text"
+    place = f".ag-row[row-index='{row}'] [col-id='{column}']"
+    tab.page.wait_for_function(script, arg=[place, text])
+
+
+def test_cells_take_units_and_say_what_they_refuse(tab, address):
+    tab.page.get_by_role("button", name="Stations").click()
+    cell(tab, 1, "x").wait_for()
+    first = cell(tab, 1, "x").inner_text()
+    type_into(tab, 1, "x", "90 mm")
+    has_text(tab, 1, "x", "0.09")
+    type_into(tab, 1, "x", "0,1")
+    has_text(tab, 1, "x", "0.1")
+    type_into(tab, 1, "x", "9 kg")
+    tab.page.get_by_text("row 2, x: received '9 kg'; 'kg' is no unit of m").wait_for()
+    assert "an-cellwrong" in cell(tab, 1, "x").get_attribute("class")
+    cell(tab, 2, "x").dblclick()
+    cell(tab, 2, "x").locator("input").press("Escape")
+    assert cell(tab, 2, "x").is_visible()  # Esc ended the cell, not the dialog
+    for _ in range(2):
+        tab.page.get_by_role("button", name="Take back").click()
+    has_text(tab, 1, "x", first)
+    tab.page.keyboard.press("Escape")
+    cell(tab, 2, "x").wait_for(state="hidden")
+    assert_clean(tab, address)
+
+
+def test_rows_are_removed_where_they_were_clicked_and_pasted_as_one(tab, address):
+    tab.page.get_by_role("button", name="Stations").click()
+    cell(tab, 1, "x").wait_for()
+    before = [cell(tab, k, "x").inner_text() for k in range(5)]
+    cell(tab, 2, "x").click()
+    tab.page.get_by_role("button", name="Remove row").click()
+    has_text(tab, 2, "x", before[3])
+    tab.page.get_by_role("button", name="Take back").click()
+    has_text(tab, 2, "x", before[2])
+    cell(tab, 1, "bending_stiffness").click()
+    tab.page.evaluate(
+        """() => {
+            const data = new DataTransfer();
+            data.setData("text/plain", "1500\\t210000\\n1600\\t220000\\n");
+            const event = new ClipboardEvent("paste", {clipboardData: data, bubbles: true});
+            document.activeElement.dispatchEvent(event);
+        }"""
+    )
+    has_text(tab, 1, "bending_stiffness", "1500")
+    has_text(tab, 2, "bending_stiffness", "1600")
+    tab.page.get_by_role("button", name="Take back").click()
+    tab.page.get_by_role("button", name="Close").click()
+    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '3.24871'")
+    assert_clean(tab, address)
+
+
+def test_no_key_is_lost_and_a_click_on_the_thumb_moves_nothing(tab, address):
+    slider = tab.page.locator(".an-slider[aria-label^='thrust']")
+    place = ".an-slider[aria-label^='thrust']"
+    value = f'document.querySelector("{place}").getAttribute("aria-valuenow")'
+    start = float(tab.page.evaluate(value))
+    keyboard(tab, "thrust", "ArrowRight", 20)
+    tab.settle()
+    step = float(tab.page.evaluate(value)) - start
+    tab.page.wait_for_function("location.search.includes('thrust')")
+    keyboard(tab, "thrust", "ArrowLeft", 20)
+    tab.settle()
+    assert float(tab.page.evaluate(value)) == pytest.approx(start)
+    keyboard(tab, "thrust", "ArrowRight")
+    assert step == pytest.approx(20 * (float(tab.page.evaluate(value)) - start))
+    tab.settle()
+    tab.page.wait_for_timeout(600)  # until the thumb stands still
+    thumb = slider.locator(".q-slider__thumb").bounding_box()
+    now = tab.page.evaluate(value)
+    tab.page.mouse.click(thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2)
+    tab.page.wait_for_timeout(300)
+    assert tab.page.evaluate(value) == now
     assert_clean(tab, address)
 
 

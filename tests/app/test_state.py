@@ -24,7 +24,7 @@ from antinode.app.quick import quick_modes
 from antinode.app.save import case_toml, report_file, result_file
 from antinode.app.source import read_dropped, read_example, read_file
 from antinode.app.state import File, History, State, fields_of, packed, unpacked
-from antinode.app.stations import columns_of, shown_rows, si_table
+from antinode.app.station_table import CellError, StationTable, block_of, columns_of
 from antinode.errors import InputError
 from antinode.examples import EXAMPLES, write_example
 from antinode.inputs.toml_writing import plain
@@ -325,11 +325,54 @@ def test_wrong_equipment_is_a_sentence(typed):
 
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_stations_survive_their_units(system):
-    problem = starter().problem
-    names = list(columns_of(problem))
-    table = si_table(shown_rows(problem, system), names, system)
-    for name, column in columns_of(problem).items():
+    columns = columns_of(starter().problem)
+    table = StationTable.of(columns, system).columns()
+    for name, column in columns.items():
         assert table[name] == pytest.approx(column.tolist(), rel=1e-8)
+
+
+def small_table(system="SI"):
+    columns = {"x": [0.0, 1.0, 3.0], "axial_stiffness": [1e6, 2e6, 3e6]}
+    return StationTable.of(columns, system)
+
+
+@pytest.mark.parametrize(
+    ("text", "metres"),
+    [("90 mm", 0.09), ("1,5", 1.5), ("0.25", 0.25), ("2 ft", 0.6096), ("150cm", 1.5)],
+)
+def test_a_cell_takes_a_number_with_or_without_a_unit(text, metres):
+    assert small_table().typed(1, "x", text).columns()["x"] == [0.0, pytest.approx(metres), 3.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "why"), [("90 kg", "no unit of m"), ("", "number"), ("1,500", "1500 or 1.500")]
+)
+def test_a_cell_says_what_it_refuses(text, why):
+    with pytest.raises(CellError, match=f"row 2, x: received '{text}'.*{why}") as caught:
+        small_table().typed(1, "x", text).columns()
+    assert small_table().shown(caught.value)[1]["wrong"] == "x"
+
+
+def test_a_plain_number_in_a_cell_is_in_the_unit_of_its_heading():
+    assert small_table().typed(0, "axial_stiffness", "5").columns()["axial_stiffness"][0] == 5e3
+    metric = small_table("mm-t-s").typed(2, "x", "2500")
+    assert metric.columns()["x"] == [0.0, 1.0, 2.5]
+
+
+def test_a_block_from_a_spreadsheet_fills_cells_and_adds_rows():
+    block = block_of("2\t4,5\r\n4\t5 MN\r\n")
+    columns = small_table().pasted(2, "x", block).columns()
+    assert columns["x"] == [0.0, 1.0, 2.0, 4.0]
+    assert columns["axial_stiffness"] == [1e6, 2e6, 4500.0, 5e6]
+    assert len(small_table().pasted(0, "axial_stiffness", [["1", "2", "3"]]).rows) == 3
+
+
+def test_rows_are_added_and_removed_where_they_were_clicked():
+    table = small_table()
+    assert table.added(0).columns()["x"] == [0.0, 0.5, 1.0, 3.0]
+    assert table.added(2).columns()["x"] == [0.0, 1.0, 3.0, 5.0]
+    assert table.removed(1).columns()["x"] == [0.0, 3.0]
+    assert table.removed(1).removed(0).rows == table.removed(1).rows
 
 
 def test_shown_units():

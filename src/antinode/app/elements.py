@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlencode
 
 from nicegui.element import Element
 from nicegui.elements.echart import EChart  # its bundle of ECharts is used by charts.js
 from nicegui.elements.scene import Scene  # its bundle of three.js is used by body.js
+
+from .uploads import ADDRESS
 
 _STATIC = Path(__file__).parent / "static"
 BUNDLES = (EChart, Scene)
@@ -32,7 +35,17 @@ class Picture(Element, component="static/picture.js", esm={"antinode-app": "stat
 
 
 class Board(Element, component="static/board.js"):
-    """Hands data to the pictures, all that changed in one message."""
+    """Hands data to the pictures, all that changed in one message, and files to the server.
+
+    Parameters
+    ----------
+    page : str
+        Key of the page, with which its files are sent.
+    """
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self._props.update(address=f"{ADDRESS}?{urlencode({'page': page})}")
 
     def apply(self, patch: dict[str, Any]) -> None:
         """Show new data: pictures by name, whether they are stale, the page's address."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from nicegui import ui
+import math
+
+from nicegui import events, ui
 
 from antinode.vehicle.case import Case
 from antinode.vehicle.hydrodynamics.cavitation_number import resolve_cavitation
@@ -11,6 +13,12 @@ from .display import number_text, shown_unit
 from .inputs import Input
 from .session import Session
 from .state import Value
+
+
+class Slider(ui.slider):
+    """A slider that moves in the browser at once, whatever the server is busy with."""
+
+    LOOPBACK = False
 
 
 class Field:
@@ -25,6 +33,9 @@ class Field:
     def __init__(self, item: Input, session: Session) -> None:
         self.item, self._session = item, session
         self.unit = shown_unit(item.unit, session.state.view.units)
+        self._anchor = self._of(item.value)
+        self._step = nice_step(self._of(item.high) - self._of(item.low))
+        self._ends = self._grid(item)
         named = f"{item.label} [{self.unit.name}]" if self.unit.name else item.label
         with ui.element("div").classes("an-field") as self._box:
             with ui.element("div").classes("an-fieldhead"):
@@ -37,7 +48,7 @@ class Field:
                     .mark(f"field-{item.path}")
                 )
             self._slider = (
-                ui.slider(min=self._of(item.low), max=self._of(item.high), step=self._of(item.step))
+                Slider(min=self._ends[0], max=self._ends[1], step=self._step)
                 .props(f'dense aria-label="{named}"')
                 .mark(f"slider-{item.path}")
                 .classes("an-slider")
@@ -45,13 +56,20 @@ class Field:
             self._slider.props("thumb-size=14px track-size=3px").value = self._of(item.value)
             self._message = ui.label("").classes("an-message").props('role="alert"')
             self._message.visible = False
+        self._there = self._of(item.value)  # where the slider stands in the browser
         self._taken = ""  # what was typed last, so that leaving the field does not take it again
         self._editing = False
         self._text.on("focus", self._focused, [])
         self._text.on("keydown.enter", self._typed, [])
         self._text.on("blur", self._left, [])
         self._slider.on_value_change(self._slid)
-        self._slider.on("change", session.release, [])
+        self._slider.on("change", self._released, [None])
+
+    def _grid(self, item: Input) -> tuple[float, float]:
+        """Return ends of the slider such that the value it was built with is on its grid."""
+        low = self._of(item.low)
+        steps = math.ceil((self._anchor - low) / self._step - 1e-9)
+        return float(f"{self._anchor - steps * self._step:.9g}"), self._of(item.high)
 
     def _of(self, value: float) -> float:
         return float(f"{self.unit.of(value):.6g}")
@@ -60,13 +78,26 @@ class Field:
         return number_text(self.unit.of(value))
 
     def _slid(self) -> None:
-        value = self._slider.value
-        if value is None or value == self._of(self.item.value):
+        self._move(self._slider.value)
+
+    def _move(self, value: float | None) -> None:
+        """Take where the browser says that the slider stands."""
+        if value is None:
+            return
+        self._there = value
+        if value == self._of(self.item.value):
             return
         new = float(f"{value * self.unit.factor:.12g}")
+        new = min(max(new, self.item.low), self.item.high)
         self.item = self.item._replace(value=new)
         self._text.value = self._shown(new)
         self._session.change({self.item.path: new}, moving=self.item.path)
+
+    def _released(self, event: events.GenericEventArguments) -> None:
+        """End the move where it was let go: throttled events may still be on their way."""
+        if isinstance(event.args, int | float):
+            self._move(event.args)
+        self._session.release()
 
     def _focused(self) -> None:
         self._editing = True
@@ -93,11 +124,12 @@ class Field:
         if moving:
             return
         value = self._of(item.value)
-        for key, end in (("min", item.low), ("max", item.high)):
-            if self._slider.props[key] != self._of(end):
-                self._slider.props[key] = self._of(end)
-        if self._slider.value != value:
-            self._slider.value = value
+        self._ends = self._grid(item)
+        for key, end in zip(("min", "max"), self._ends, strict=True):
+            if self._slider.props[key] != end:
+                self._slider.props[key] = end
+        if self._there != value:  # nothing is sent back of what the browser has said itself
+            self._there = self._slider.value = value
         if not self._editing and self._text.value != self._shown(item.value):
             self._text.value = self._shown(item.value)
 
@@ -109,6 +141,13 @@ class Field:
         self._message.visible = bool(sentence)
         self._box.classes(add="an-wrong" if sentence else "", remove="" if sentence else "an-wrong")
         self._text.props(f'aria-invalid="{str(bool(sentence)).lower()}"')
+
+
+def nice_step(width: float) -> float:
+    """Return 1, 2 or 5 times a power of ten, of which 100 to 250 make the width."""
+    least = width / 250
+    power = 10.0 ** math.floor(math.log10(least))
+    return next(float(f"{n * power:.1e}") for n in (1, 2, 5, 10) if n * power >= least * (1 - 1e-9))
 
 
 class Fields:

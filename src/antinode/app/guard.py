@@ -63,12 +63,14 @@ class Guard:
             await send({"type": "websocket.close", "code": 1008})
 
     def _refusal(self, scope: Scope, headers: dict[str, str]) -> tuple[int, str] | None:
-        host = headers.get("host", "")
-        name = urlsplit(f"//{host}").hostname or ""
+        host, origin = headers.get("host", ""), headers.get("origin", "")
+        try:
+            name, page = urlsplit(f"//{host}").hostname or "", urlsplit(origin).netloc
+        except ValueError:  # "[::1"
+            return 400, "the name of the server cannot be read"
         if self._hosts and name not in self._hosts:
             return 403, "this server answers on its own address only"
-        origin = headers.get("origin")
-        if origin and urlsplit(origin).netloc != host:
+        if origin and page != host:
             return 403, "requests from other pages are refused"
         if not self._is_known(scope, headers):
             return 401, "a token is needed: open the link that antinode app has printed"

@@ -41,11 +41,6 @@ class Input(NamedTuple):
     low: float
     high: float
 
-    @property
-    def step(self) -> float:
-        """Step of the slider [unit]: a two-hundredth of its range."""
-        return (self.high - self.low) / 200
-
 
 def sliders(problem: Problem, original: Problem) -> tuple[Input, ...]:
     """Return the inputs that have sliders; their ranges follow from the original values.

@@ -6,7 +6,7 @@ static/app.css, what is drawn in a picture in the scripts beside it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from typing import Any
 
 from nicegui import events, ui
@@ -22,11 +22,12 @@ from .elements import Board, Picture, style_sheet
 from .equipment import EquipmentFields
 from .fields import Fields
 from .inputs import Input, numbers, sliders
-from .parts import SMALL, card, head_button, section, uploader
+from .parts import SMALL, card, head_button, section
 from .session import Session
 from .source import read_dropped, read_example
 from .state import State
 from .stations import StationsDialog
+from .uploads import register
 
 _LETTERS = {"theta": "θ", "phi": "φ", "Q_x": "Q", "Q_y": "Q"}
 
@@ -56,12 +57,13 @@ class Page:
         self._downloads = Downloads(self.session, self._note)
         self._playing = False
         with ui.element("div").classes("an-app"):
-            self._board = Board()
+            self._board = Board(self._client.id)
             self._board.on("ready", self._ready)
-            self._upload = uploader(self._dropped)
+            self._board.on("refused", lambda e: self._note(str(e.args)))
             self._head = ui.element("header").classes("an-head")
             self._side = ui.element("aside").classes("an-side").props('aria-label="Inputs"')
             self._main = ui.element("main").classes("an-main")
+        register(self._client.id, self)
         self._stations = StationsDialog(self.session)
         self._build()
         ui.keyboard(on_key=self._key)
@@ -81,12 +83,14 @@ class Page:
             self._undo.set_enabled(self.session.history.can_undo)
             pinned = bool(self.session.state.view.baseline)
             self._pin.text = "Unpin" if pinned else "Pin"
+            self._stations.refresh()
 
     def complain(self, path: str, sentence: str) -> None:
         """Mark what is wrong at its field."""
         with self._client:
             self._fields.complain(path, sentence)
             self._undo.set_enabled(self.session.history.can_undo)
+            self._stations.refresh()
 
     def rebuild(self) -> None:
         """Build head, side and pictures anew for another file."""
@@ -280,18 +284,17 @@ class Page:
         self.session.look(dark=dark)
         self._board.retheme()
 
-    def _opener(self, example: str) -> Callable[[], None]:
+    def _opener(self, example: str) -> Callable[[], Coroutine[Any, Any, None]]:
         return lambda: self._open(lambda: read_example(example))
 
-    async def _dropped(self, event: events.MultiUploadEventArguments) -> None:
-        files = {file.name: await file.read() for file in event.files}
-        self._open(lambda: read_dropped(files))
-        self._upload.reset()
+    async def take_files(self, files: dict[str, bytes]) -> None:
+        """Open what was chosen, or dropped on the page."""
+        await self._open(lambda: read_dropped(files))
 
-    def _open(self, read: Callable[[], Any]) -> None:
+    async def _open(self, read: Callable[[], Any]) -> None:
         """Open another file; a wrong one changes nothing."""
         try:
-            file = read()
+            file = await self.session.run(read)
         except AntinodeError as error:
             self._note(str(error))
             return

@@ -1,4 +1,4 @@
-"""What the page is built of: sections, cards with a picture, buttons, the place to drop files."""
+"""What the page is built of: sections, cards with a picture, buttons."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from nicegui import events, ui
+from nicegui import ui
 
 from .elements import Picture
-from .source import MOST_BYTES
 
 SMALL = "dense flat no-caps size=sm"
 
@@ -37,22 +36,3 @@ def card(kind: str, title: str) -> Iterator[None]:
             ui.label(title).classes("an-title").props('role="heading" aria-level="2"')
             yield
         Picture(kind, title, role=role)
-
-
-def uploader(taken: Callable[[events.MultiUploadEventArguments], Any]) -> ui.upload:
-    """Build what takes files that are chosen, or dropped on the page."""
-    return (
-        ui.upload(
-            multiple=True,
-            auto_upload=True,
-            max_total_size=MOST_BYTES,
-            max_files=10,
-            on_multi_upload=taken,
-            on_rejected=lambda: ui.notify(
-                f"These files are refused: at most 10, and {MOST_BYTES / 1e6:g} MB together.",
-                type="negative",
-            ),
-        )
-        .classes("an-upload")
-        .props('aria-hidden="true" accept=".toml,.csv"')
-    )

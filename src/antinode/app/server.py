@@ -7,10 +7,11 @@ import secrets
 import sys
 import warnings
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from antinode.errors import InputError
+from antinode.errors import AntinodeError, InputError
 from antinode.extras import import_extra
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ def run_app(
 
     port = _free_port(host, port)
     token = "" if host in LOOPBACK else secrets.token_urlsafe(24)
-    link = f"http://{_in_url(host)}:{port}/" + (f"?token={token}" if token else "")
+    link = f"http://{_in_url(_reachable(host))}:{port}/" + (f"?token={token}" if token else "")
     sys.stderr.write(f"antinode: the page is at {link} (Ctrl-C ends it)\n")
     sys.stderr.flush()
     serve(state, host, port, token, show=show)
@@ -104,8 +105,12 @@ def serve(state: State, host: str, port: int, token: str = "", *, show: bool = F
 
 def add_page(state: State) -> None:
     """Register the page; each visitor starts from `state`, or from what the link says."""
-    from nicegui import ui
+    from nicegui import app, ui
     from starlette.requests import Request
+
+    from .uploads import ADDRESS, route
+
+    app.add_route(ADDRESS, route(), methods=["POST"])
 
     def index(request: Request) -> None:
         from .page import Page
@@ -117,13 +122,17 @@ def add_page(state: State) -> None:
 
 
 def opened(state: State, query: dict[str, str]) -> tuple[State, str]:
-    """Return what a link asks for, and what is wrong with it; then the first state is shown."""
+    """Return what a link asks for, and what is wrong with it; then what can be shown of it."""
     try:
         asked = state.from_query(query)
         _ = asked.original
-        return asked, ""
     except InputError as error:
         return state, str(error)
+    try:
+        _ = asked.problem
+    except AntinodeError as error:
+        return replace(asked, changes={}), f"the link's values are left out: {error}"
+    return asked, ""
 
 
 def _import_nicegui() -> None:
@@ -147,6 +156,23 @@ def _free_port(host: str, port: int) -> int:
             say = "name another one with --port, or 0 for any free one"
             raise InputError(f"port {port} on {host} cannot be used ({reason}); {say}") from error
         return int(probe.getsockname()[1])
+
+
+def _reachable(host: str) -> str:
+    """Return an address that a browser can open: for "all of this machine", one of them."""
+    import socket
+
+    if host not in ("0.0.0.0", "::", ""):
+        return host
+    family, beyond = (
+        (socket.AF_INET6, "2001:db8::1") if ":" in host else (socket.AF_INET, "192.0.2.1")
+    )
+    with socket.socket(family, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect((beyond, 9))  # chooses the way out; nothing is sent
+            return str(probe.getsockname()[0])
+        except OSError:
+            return socket.gethostname()
 
 
 def _in_url(host: str) -> str:

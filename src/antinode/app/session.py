@@ -167,7 +167,8 @@ class Session:
         self.answer, self.inputs, self.error = answer, inputs, ""
         self._face.complain("", "")
         self._send(data, stale=False)
-        self._face.refresh(inputs, self._dragged)
+        if state is self.state:
+            self._face.refresh(inputs, self._dragged)
         return True
 
     def _fail(self, sentence: str) -> None:

@@ -35,6 +35,7 @@ Tables = Mapping[str, Any]
 LONGEST_LINK = 16_000
 """Characters of a link; a larger case has to be saved as a file."""
 _MOST_UNPACKED = 2_000_000
+_TELLING = 12  # characters of a fingerprint in a link
 
 
 class View(Frozen):
@@ -170,6 +171,8 @@ class State:
         if self.changes:
             found["set"] = _changes_text(self.changes)
         how = self.view.model_dump(exclude_defaults=True)
+        if self.file.own and (self.changes or how):
+            found["file"] = self.file.fingerprint[:_TELLING]
         found |= {key: json.dumps(value, separators=(",", ":")) for key, value in how.items()}
         if sum(map(len, found.values())) > LONGEST_LINK:
             raise InputError("this case is too large for a link; save it as a file instead")
@@ -186,6 +189,11 @@ class State:
         state = self
         if "case" in query:
             state = state._opened(query["case"])
+        elif query.get("file", "") not in ("", self.file.fingerprint[:_TELLING]):
+            raise InputError(
+                f"the link belongs to another file than {self.file.origin}, which this server "
+                "shows: start antinode app with that file, or save the case there and drop it here"
+            )
         if "set" in query:
             state = replace(state, changes=_read_changes(query["set"]))
         how = {key: query[key] for key in View.model_fields if key in query}

@@ -1,61 +1,26 @@
-"""The table of stations, to be edited: a dialog with one row a station."""
+"""The dialog that edits the stations: cells take units, blocks are pasted, all can be undone."""
 
 from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from nicegui import ui
 
 from antinode.errors import AntinodeError
-from antinode.inputs.reading import COLUMN_UNITS
-from antinode.vehicle.case import Case
 
-from .display import System, shown_unit
-from .inputs import Problem
 from .session import Session
+from .station_table import CellError, StationTable, block_of, columns_of, unit_of
 
-
-def columns_of(problem: Problem) -> dict[str, np.ndarray]:
-    """Return the stations of a problem, column by column [SI]."""
-    if isinstance(problem, Case):
-        stations = problem.vehicle.stations
-        return {"x": stations.x, **{name: column for name, column, _ in stations.columns()}}
-    table = problem.table.stations
-    every = {name: getattr(table, name) for name in type(table).model_fields}
-    return {name: column for name, column in every.items() if column is not None}
-
-
-def shown_rows(problem: Problem, system: System) -> list[dict[str, float]]:
-    """Return the stations row by row, in units of the screen."""
-    columns = columns_of(problem)
-    factors = {name: unit_of(name, system)[1] for name in columns}
-    count = len(columns["x"])
-    return [
-        {
-            "row": k + 1,
-            **{n: float(f"{c[k] / factors[n]:.9g}") for n, c in columns.items()},
-        }
-        for k in range(count)
-    ]
-
-
-def unit_of(name: str, system: System) -> tuple[str, float]:
-    """Return name and factor of a column's unit on the screen."""
-    shown = shown_unit(COLUMN_UNITS.get(name.partition(":")[0], ""), system)
-    return shown.name, shown.factor
-
-
-def si_table(rows: list[dict[str, Any]], names: list[str], system: System) -> dict[str, list[Any]]:
-    """Return edited rows as a table of SI columns; what is no number is left for the check."""
-    return {name: [_si(row.get(name), unit_of(name, system)[1]) for row in rows] for name in names}
-
-
-def _si(value: Any, factor: float) -> Any:
-    try:
-        return float(f"{float(value) * factor:.12g}")
-    except (TypeError, ValueError):
-        return str(value)[:60]
+_PASTE = """(e) => {
+  const cell = document.activeElement?.closest?.(".ag-cell");
+  const text = e.clipboardData?.getData("text/plain") ?? "";
+  if (!cell || (e.target.tagName === "INPUT" && !/[\\t\\n]/.test(text.trimEnd()))) return;
+  e.preventDefault();
+  emit({row: Number(cell.closest(".ag-row").getAttribute("row-index")),
+        column: cell.getAttribute("col-id"), text: text.slice(0, 2000000)});
+}"""
+_ESCAPE = '(e) => { if (e.target.tagName !== "INPUT") emit(); }'
+_WRONG = {"an-cellwrong": "data.wrong === colDef.field"}
 
 
 class StationsDialog:
@@ -68,53 +33,97 @@ class StationsDialog:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._names: list[str] = []
-        self._rows: list[dict[str, Any]] = []
-        with ui.dialog() as self._dialog, ui.card().classes("an-dialog"):
-            ui.label("Stations").classes("an-dialogtitle")
-            ui.label(
-                "One row a station, x from the nose aft. Change a cell and press Enter; every "
-                "change is computed at once and can be undone."
-            ).classes("an-hint")
-            self._grid = ui.aggrid(
-                {"columnDefs": [], "rowData": []}, auto_size_columns=False
-            ).classes("an-grid")
-            self._grid.on("cellValueChanged", self._edited, ["data", "rowIndex"])
-            self._message = ui.label("").classes("an-message").props('role="alert"')
-            with ui.row().classes("an-buttons"):
-                ui.button("Add row", on_click=self._add).props("flat no-caps")
-                ui.button("Remove row", on_click=self._remove).props("flat no-caps")
-                ui.space()
-                ui.button("Close", on_click=self._dialog.close).props("unelevated no-caps")
+        self._table = StationTable((), (), "SI")
+        self._row = 0
+        self._taken: dict[str, list[float]] = {}
+        self._dialog = ui.dialog().props("no-esc-dismiss")
+        box = ui.card().classes("an-dialog").props('role="dialog" aria-label="Stations"')
+        box.move(self._dialog)
+        with box:
+            self._build()
+        box.on("keydown.escape", self._dialog.close, js_handler=_ESCAPE)
+
+    def _build(self) -> None:
+        ui.label("Stations").classes("an-dialogtitle").props('role="heading" aria-level="2"')
+        self._hint = ui.label("").classes("an-hint")
+        self._grid = ui.aggrid({"columnDefs": [], "rowData": []}, auto_size_columns=False)
+        self._grid.classes("an-grid")
+        self._grid.on("cellValueChanged", self._edited, ["rowIndex", "colId", "newValue"])
+        self._grid.on("cellFocused", self._focused, ["rowIndex"])
+        self._grid.on("paste", self._pasted, js_handler=_PASTE)
+        self._message = ui.label("").classes("an-message").props('role="alert"')
+        with ui.row().classes("an-buttons"):
+            ui.button("Add row", on_click=self._add).props("flat no-caps")
+            ui.button("Remove row", on_click=self._remove).props("flat no-caps")
+            self._undo = ui.button("Take back", on_click=self._session.undo).props("flat no-caps")
+            ui.space()
+            ui.button("Close", on_click=self._dialog.close).props("unelevated no-caps")
+
+    @property
+    def _path(self) -> str:
+        return f"{'vehicle' if self._session.state.is_vehicle else 'beam'}.stations"
 
     def open(self) -> None:
         """Show the table of the present problem."""
-        try:
-            problem = self._session.state.problem
-        except AntinodeError:
-            problem = self._session.state.original
-        system = self._session.state.view.units
-        self._names = list(columns_of(problem))
-        self._rows = shown_rows(problem, system)
-        self._grid.options["columnDefs"] = [
-            {"field": "row", "headerName": "", "width": 54, "pinned": "left", "editable": False},
-            *(self._column(name, system) for name in self._names),
-        ]
-        self._grid.options["rowData"] = self._rows
-        self._grid.options["rowSelection"] = {"mode": "singleRow", "checkboxes": False}
+        what = "the nose" if self._session.state.is_vehicle else "the left end"
+        self._hint.text = (
+            f"One row a station, x from {what}. A cell takes a number, with a unit of its own if "
+            "you like (90 mm), or a block copied from a spreadsheet. Every change is computed at "
+            "once and can be undone."
+        )
+        self._table, self._row = self._present(), 0
+        self._grid.options["columnDefs"] = self._heads()
+        self._grid.options["rowData"] = self._table.shown()
+        self._grid.options["rowSelection"] = {
+            "mode": "singleRow", "checkboxes": False, "enableClickSelection": True,
+        }  # fmt: skip
         self._grid.options["stopEditingWhenCellsLoseFocus"] = True
         self._grid.update()
         self._say("")
+        self._undo.set_enabled(self._session.history.can_undo)
         self._dialog.open()
 
-    @staticmethod
-    def _column(name: str, system: System) -> dict[str, Any]:
-        unit = unit_of(name, system)[0]
+    def refresh(self) -> None:
+        """Show stations that came from elsewhere: an undo, another unit."""
+        self._undo.set_enabled(self._session.history.can_undo)
+        if not self._dialog.value:
+            return
+        elsewhere = self._stored() != self._taken
+        present = self._present()
+        if present.names != self._table.names or present.system != self._table.system:
+            self.open()
+        elif elsewhere:
+            self._show(present)
+
+    def _stored(self) -> Any:
+        """Return the stations that the session was given; nothing where they are the file's."""
+        return self._session.state.changes.get(self._path) or {}
+
+    def _present(self) -> StationTable:
+        """Return the stations of the present problem, or what was typed if that is wrong."""
+        state = self._session.state
+        self._taken = self._stored()
+        if self._taken:
+            return StationTable.of(self._taken, state.view.units)
+        try:
+            columns = columns_of(state.problem)
+        except AntinodeError:
+            columns = columns_of(state.original)
+        return StationTable.of(columns, state.view.units)
+
+    def _heads(self) -> list[dict[str, Any]]:
+        number = {"field": "row", "headerName": "", "width": 54, "pinned": "left"}
+        return [number, *map(self._head, self._table.names)]
+
+    def _head(self, name: str) -> dict[str, Any]:
+        unit = unit_of(name, self._table.system)[0]
         return {
             "field": name,
             "colId": name,
             "headerName": f"{name.replace('_', ' ').replace(':', ', ')} [{unit}]",
             "editable": True,
+            "cellDataType": False,
+            "cellClassRules": _WRONG,
             "minWidth": 110,
             "flex": 1,
             "wrapHeaderText": True,
@@ -122,51 +131,54 @@ class StationsDialog:
             "sortable": False,
         }
 
+    # --- what the user does -------------------------------------------------------------------
+
+    def _focused(self, event: Any) -> None:
+        if isinstance(event.args.get("rowIndex"), int):
+            self._row = event.args["rowIndex"]
+
     def _edited(self, event: Any) -> None:
-        row, data = int(event.args["rowIndex"]), event.args["data"]
-        if 0 <= row < len(self._rows) and isinstance(data, dict):
-            self._rows[row] = {name: data.get(name) for name in ("row", *self._names)}
-            self._take()
+        row, column, text = (event.args.get(key) for key in ("rowIndex", "colId", "newValue"))
+        if column in self._table.names and isinstance(row, int) and row < len(self._table.rows):
+            self._take(self._table.typed(row, column, "" if text is None else text))
 
-    async def _add(self) -> None:
-        """Put a row behind the chosen one, halfway to the next; at the end, a step further."""
-        k = await self._chosen()
-        here = self._rows[k]
-        after = self._rows[k + 1] if k + 1 < len(self._rows) else None
-        step = self._rows[k]["x"] - self._rows[k - 1]["x"]
-        x = (here["x"] + after["x"]) / 2 if after else here["x"] + step
-        self._rows.insert(k + 1, {**here, "x": float(f"{x:.9g}")})
-        self._number()
+    def _pasted(self, event: Any) -> None:
+        row, column = event.args["row"], event.args["column"]
+        if column in self._table.names and row < len(self._table.rows):
+            self._take(self._table.pasted(row, column, block_of(event.args["text"])))
 
-    async def _remove(self) -> None:
-        if len(self._rows) > 2:
-            del self._rows[await self._chosen()]
-            self._number()
+    def _add(self) -> None:
+        """Put a row behind the one that was clicked last."""
+        self._row = min(self._row, len(self._table.rows) - 1)
+        self._take(self._table.added(self._row))
+        self._row += 1
 
-    async def _chosen(self) -> int:
-        """Return the index of the selected row; of the last but one without a selection."""
-        row = await self._grid.get_selected_row()
-        number = int(row["row"]) - 1 if row else len(self._rows) - 2
-        return min(max(number, 0), len(self._rows) - 1)
+    def _remove(self) -> None:
+        """Take out the row that was clicked last."""
+        self._row = min(self._row, len(self._table.rows) - 1)
+        self._take(self._table.removed(self._row))
 
-    def _number(self) -> None:
-        for k, row in enumerate(self._rows, 1):
-            row["row"] = k
-        self._grid.options["rowData"] = self._rows
-        self._grid.update()
-        self._take()
-
-    def _take(self) -> None:
+    def _take(self, table: StationTable) -> None:
         """Give the edited table to the session, and say what is wrong with it."""
+        try:
+            columns = table.columns()
+        except CellError as error:
+            self._show(table, error)
+            return
         session = self._session
-        table = si_table(self._rows, self._names, session.state.view.units)
-        key = "vehicle" if session.state.is_vehicle else "beam"
-        session.change({f"{key}.stations": table})
+        self._taken = columns
+        session.change({self._path: columns})
+        self._show(StationTable.of(columns, table.system))
         try:
             _ = session.state.problem
-            self._say("")
         except AntinodeError as error:
             self._say(str(error))
+
+    def _show(self, table: StationTable, wrong: CellError | None = None) -> None:
+        """Show a table; the grid keeps its place."""
+        self._table = table
+        self._grid.run_grid_method("setGridOption", "rowData", table.shown(wrong))
+        self._say(str(wrong) if wrong else "")
 
     def _say(self, sentence: str) -> None:
         self._message.text = sentence

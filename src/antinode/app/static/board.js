@@ -2,7 +2,8 @@ import { registry } from "antinode-app";
 
 // Takes what the server has computed and hands each part to its picture, all in one go.
 export default {
-  template: `<div hidden></div>`,
+  template: `<div hidden><input ref="files" type="file" multiple accept=".toml,.csv" tabindex="-1" aria-hidden="true" @change="chosen" /></div>`,
+  props: { address: String },
   mounted() {
     document.fonts.ready.then(() => this.$emit("ready"));
     this.over = 0;
@@ -40,16 +41,22 @@ export default {
     retheme() {
       requestAnimationFrame(() => registry.retheme());
     },
-    send(list) {
-      const uploader = document.querySelector(".an-upload input[type=file]");
-      const all = new DataTransfer();
-      for (const file of list) all.items.add(file);
-      if (!uploader) return;
-      uploader.files = all.files;
-      uploader.dispatchEvent(new Event("change", { bubbles: true }));
+    async send(list) {
+      const form = new FormData();
+      for (const file of list) form.append("files", file, file.name);
+      try {
+        const answer = await fetch(this.address, { method: "POST", body: form });
+        if (!answer.ok) this.$emit("refused", (await answer.text()).replace(/^antinode: /, ""));
+      } catch {
+        this.$emit("refused", "the files did not reach the server: they are too large, or it has stopped");
+      }
+    },
+    chosen() {
+      this.send(this.$refs.files.files);
+      this.$refs.files.value = "";
     },
     choose() {
-      document.querySelector(".an-upload input[type=file]")?.click();
+      this.$refs.files.click();
     },
   },
 };

@@ -2,15 +2,19 @@
 import { html } from "./theme.js";
 
 export function notes(element) {
+  let last = null; // warnings of the last full result: while something moves they are being checked
   return {
     show(data) {
+      if (!data.quick) last = data.warnings;
+      const warnings = data.quick && last ? [...new Set([...data.warnings, ...last])] : data.warnings;
       const facts = html("dl", "an-facts");
       for (const [name, text] of data.facts) facts.append(html("dt", "", name), html("dd", "", text));
       const parts = [facts];
       const outside = data.ranges.filter((r) => !r.inside).length;
-      const title = data.warnings.length === 1 ? "1 warning" : `${data.warnings.length || "No"} warnings`;
-      parts.push(html("h3", data.warnings.length ? "an-warned" : "", title));
-      for (const text of data.warnings) parts.push(html("p", "an-warning", text));
+      const count = warnings.length === 1 ? "1 warning" : `${warnings.length || "No"} warnings`;
+      const title = data.quick ? "Warnings are being checked" : count;
+      parts.push(html("h3", warnings.length ? "an-warned" : "", title));
+      for (const text of warnings) parts.push(html("p", data.quick ? "an-warning an-old" : "an-warning", text));
       if (data.ranges.length) {
         parts.push(html("h3", outside ? "an-warned" : "", outside ? `${outside} of ${data.ranges.length} correlations out of range` : `All ${data.ranges.length} correlations in range`));
         const list = html("ul", "an-ranges");
