@@ -3,6 +3,7 @@
 import json
 import re
 import tomllib
+from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
@@ -365,6 +366,64 @@ def test_downloads(tab, address):
         if name == "modes.json":
             assert len(json.loads(content)["modes"]) == 15
     assert_clean(tab, address)
+
+
+def axe(tab):
+    """What axe-core finds wrong with the page as it stands."""
+    package = pytest.importorskip("axe_playwright_python", reason="axe is not installed")
+    tab.page.evaluate((Path(package.__file__).parent / "axe.min.js").read_text(encoding="utf-8"))
+    found = tab.page.evaluate("axe.run(document, {resultTypes: ['violations']})")
+    return [(v["id"], v["nodes"][0]["html"][:200]) for v in found["violations"]]
+
+
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("width", [1280, 760, 390])
+def test_axe_finds_nothing_wrong(chromium, address, dark, width):
+    link = address + ("?dark=true" if dark else "?dark=false")
+    tab = Tab(chromium, link, width=width, height=800)
+    assert axe(tab) == []
+    tab.set_field("speed [m/s]", "50 kg")
+    tab.page.locator(".an-message:visible").first.wait_for()
+    assert axe(tab) == []
+    tab.page.get_by_label("Pin the frequencies").click()
+    for button, shows in (("Stations", ".ag-cell"), ("Open", ".q-menu"), ("Save", ".q-menu")):
+        tab.page.get_by_role("button", name=button).click()
+        tab.page.locator(shows).first.wait_for()
+        tab.page.wait_for_timeout(600)  # until it stands still
+        assert axe(tab) == [], button
+        tab.page.keyboard.press("Escape")
+        tab.page.locator(shows).first.wait_for(state="hidden")
+    tab.page.close()
+
+
+def test_a_phone_keeps_the_frequencies_in_sight(chromium, address):
+    tab = Tab(chromium, address, width=390, height=844)
+    strip = tab.page.locator(".an-strip")
+    assert strip.inner_text().split()[:3] == ["1", "3.24871", "Hz"]
+    tab.page.mouse.wheel(0, 900)
+    tab.page.wait_for_timeout(300)
+    assert strip.bounding_box()["y"] >= 0
+    assert tab.page.evaluate("document.documentElement.scrollWidth") <= 390
+    tab.page.close()
+
+
+def test_at_760_pixels_sliders_and_frequencies_are_side_by_side(chromium, address):
+    tab = Tab(chromium, address, width=760, height=800)
+    slider = tab.page.locator(".an-slider").first.bounding_box()
+    table = tab.page.locator(".an-at-frequencies").bounding_box()
+    assert slider["x"] + slider["width"] < table["x"]
+    assert table["y"] + table["height"] < 800
+    tab.page.close()
+
+
+def test_a_link_of_another_file_is_refused_in_words(chromium, address):
+    page = chromium.new_page()
+    page.goto(address + "?file=000000000000&set=%7B%22condition.thrust%22%3A1%7D")
+    page.get_by_text("the link belongs to another file than starter.toml").wait_for()
+    page.goto(address + "?set=%7B%22condition.speed%22%3A-5%7D")
+    page.get_by_text("the link's values are left out").wait_for()
+    page.wait_for_selector(".an-table:not(.an-quick) tbody tr")
+    page.close()
 
 
 def test_everything_can_be_reached_by_keyboard_and_has_a_name(tab):

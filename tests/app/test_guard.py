@@ -59,6 +59,8 @@ def test_its_own_page_passes():
         ([(b"host", b"evil.example")], 403),
         ([HERE, (b"origin", b"http://evil.example")], 403),
         ([HERE, (b"origin", b"null")], 403),
+        ([(b"host", b"[::1")], 400),
+        ([HERE, (b"origin", b"http://[::1")], 400),
         ([HERE, (b"content-length", b"101")], 413),
         ([HERE, (b"content-length", b"-1")], 413),
         ([], 403),

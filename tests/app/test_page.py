@@ -1,12 +1,14 @@
 """The page inside the test's process, without a browser: what a control does to the session."""
 
 import asyncio
+import gc
+import weakref
 
 import pytest
 
 pytest.importorskip("nicegui", reason="nicegui is not installed (extra web)")
 
-from nicegui import ui
+from nicegui import Client, ui
 from nicegui.testing.user_simulation import user_simulation
 
 from antinode.app.page import Page
@@ -142,3 +144,24 @@ def test_a_newer_change_ends_the_work_on_an_older_one():
         assert page.session.history.undo().problem.condition.speed == 80.0
 
     visit(act)
+
+
+def test_a_page_that_is_closed_is_forgotten():
+    """Neither its route for uploads nor a cache keeps it."""
+    pages = []
+
+    async def main():
+        def root():
+            pages.append(weakref.ref(Page(State(File(read_example("tower").tables, "t.toml")))))
+
+        async with user_simulation(root=root) as user:
+            for _ in range(4):
+                await user.open("/")
+                for client in list(Client.instances.values()):
+                    if client is not user.client:
+                        client.delete()
+            await asyncio.sleep(0)
+            gc.collect()
+            assert [page() is not None for page in pages[:-1]] == [False] * 3
+
+    run_async(main())

@@ -28,13 +28,15 @@ class Downloads:
 
     def build_menu(self) -> None:
         """Build the entries of the menu."""
-        ui.menu_item("The case, as TOML", self._save_case)
+        ui.menu_item("The case, as TOML", self._save_case).props('role="menuitem"')
         ui.separator()
         for ending, what in ((".csv", "table"), (".json", "all numbers"), (".nc", "shapes")):
-            ui.menu_item(f"Results, {ending} ({what})", self._saver(ending))
+            ui.menu_item(f"Results, {ending} ({what})", self._saver(ending)).props(
+                'role="menuitem"'
+            )
         ui.separator()
         for ending in (".html", ".pdf"):
-            ui.menu_item(f"The report, {ending}", self._reporter(ending))
+            ui.menu_item(f"The report, {ending}", self._reporter(ending)).props('role="menuitem"')
 
     def _save_case(self) -> None:
         try:

@@ -55,9 +55,9 @@ class Board(Element, component="static/board.js"):
         """Let the mode shapes move."""
         self.run_method("play", on)
 
-    def retheme(self) -> None:
-        """Draw all pictures in the present colours."""
-        self.run_method("retheme")
+    def reset(self) -> None:
+        """Look at the body from where the page first did."""
+        self.run_method("reset")
 
     def choose(self) -> None:
         """Open the browser's dialog for files."""

@@ -186,8 +186,9 @@ class Fields:
 
     def _switch(self, path: str) -> None:
         """Let the user choose between cavitation number and depth."""
-        options = {"condition.cavitation_number": "σ", "condition.depth": "depth"}
+        options = {"condition.cavitation_number": "number σ", "condition.depth": "depth"}
         with ui.element("div").classes("an-switch"):
+            ui.label("Cavity by").classes("an-hint")
             ui.toggle(options, value=path, on_change=lambda e: self._swap(str(e.value))).props(
                 'dense flat no-caps size=sm aria-label="give cavitation number or depth"'
             ).mark("cavitation")

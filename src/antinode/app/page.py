@@ -32,6 +32,17 @@ from .uploads import register
 _LETTERS = {"theta": "θ", "phi": "φ", "Q_x": "Q", "Q_y": "Q"}
 
 
+SHORTCUTS = {
+    "← →": "move the slider that has the focus",
+    "Tab": "go to the next control",
+    "Enter": "take what was typed",
+    "Ctrl Z": "undo",
+    "P": "pin the frequencies, or take the pin out",
+    "V": "let the modes vibrate",
+}
+"""What keys do, as the page lists it."""
+
+
 def _components(family: FamilyName) -> dict[int, str]:
     """Return the quantities of a family by their place, as the page writes them."""
     symbols = [quantity.symbol for quantity in FAMILIES[family].quantities]
@@ -53,6 +64,7 @@ class Page:
         ui.add_css(style_sheet())
         self._client: Client = ui.context.client
         self._dark = ui.dark_mode(state.view.dark)
+        self._system_dark = False
         self.session = Session(state, self)
         self._downloads = Downloads(self.session, self._note)
         self._playing = False
@@ -61,8 +73,10 @@ class Page:
             self._board.on("ready", self._ready)
             self._board.on("refused", lambda e: self._note(str(e.args)))
             self._head = ui.element("header").classes("an-head")
+            Picture("strip", "Frequencies in short", role="region").classes("an-strip")
             self._side = ui.element("aside").classes("an-side").props('aria-label="Inputs"')
-            self._main = ui.element("main").classes("an-main")
+            self._main = ui.element("div").classes("an-main").props('aria-label="Results"')
+            self._main.props('role="region"')
         register(self._client.id, self)
         self._stations = StationsDialog(self.session)
         self._build()
@@ -125,22 +139,38 @@ class Page:
         ui.label(f"{state.file.origin} · {what}").classes("an-origin")
         ui.space()
         with head_button("Open", "folder_open"), ui.menu().props("auto-close"):
-            ui.menu_item("A file … (or drop it on the page)", self._board.choose)
+            item = ui.menu_item("A file … (or drop it on the page)", self._board.choose)
+            item.props('role="menuitem"')
             ui.separator()
             for example in (e for e, run in EXAMPLES.items() if "sweep" not in run):
                 words = f"Example: {example.replace('_', ' ')}"
-                ui.menu_item(words, self._opener(example)).mark(f"example-{example}")
+                item = ui.menu_item(words, self._opener(example)).props('role="menuitem"')
+                item.mark(f"example-{example}")
         head_button("Stations", "table_rows", self._stations.open)
         self._undo = head_button("Undo", "undo", self.session.undo)
         with head_button("Save", "download"), ui.menu().props("auto-close"):
             self._downloads.build_menu()
         head_button("Link", "link", self._copy_link)
+        self._build_shortcuts()
         ui.separator().props("vertical").classes("an-rule")
         ui.select(list(SYSTEMS), value=state.view.units, on_change=self._units).props(
             'dense borderless options-dense aria-label="Units"'
         ).classes("an-units").mark("units")
         dark = ui.button(icon="dark_mode", color=None, on_click=self._toggle_dark)
         dark.props('flat dense round aria-label="Dark or light"').mark("dark")
+
+    def _build_shortcuts(self) -> None:
+        """List the keys that do something."""
+        keys = ui.button(icon="keyboard", color=None)
+        keys.props('flat dense round aria-label="Keys"').mark("keys")
+        with keys:
+            menu = ui.menu().props('role="dialog" aria-label="Keys"')
+        with menu, ui.element("dl").classes("an-keys"):
+            for key, what in SHORTCUTS.items():
+                with ui.element("dt"):
+                    ui.label(key)
+                with ui.element("dd"):
+                    ui.label(what)
 
     def _build_side(self) -> None:
         vehicle = self.session.state.is_vehicle
@@ -220,6 +250,8 @@ class Page:
                 "an-pick an-narrow"
             )
             ui.label("turn with the mouse").classes("an-hint")
+            back = ui.button(icon="restart_alt", color=None, on_click=self._board.reset)
+            back.props('flat dense round size=sm aria-label="Look from the first direction again"')
 
     def _modes_shown(self) -> int:
         return min(self.session.state.original.solve.modes, 6)
@@ -255,7 +287,8 @@ class Page:
 
     # --- what the controls do ---------------------------------------------------------------
 
-    def _ready(self) -> None:
+    def _ready(self, event: events.GenericEventArguments) -> None:
+        self._system_dark = bool(event.args)
         self.session.again()
 
     def _family(self, family: FamilyName) -> None:
@@ -279,10 +312,11 @@ class Page:
         self.session.look(units=event.value)
 
     def _toggle_dark(self) -> None:
-        dark = not self.session.state.view.dark
+        """Turn dark or light, from what the browser's system asks for where nothing was chosen."""
+        now = self.session.state.view.dark
+        dark = not (self._system_dark if now is None else now)
         self._dark.value = dark
         self.session.look(dark=dark)
-        self._board.retheme()
 
     def _opener(self, example: str) -> Callable[[], Coroutine[Any, Any, None]]:
         return lambda: self._open(lambda: read_example(example))

@@ -42,7 +42,7 @@ class View(Frozen):
     """How a page looks at its problem."""
 
     units: System = "SI"
-    dark: bool = False
+    dark: bool | None = None
     family: FamilyName = BENDING
     component: int = 0
     modes: tuple[int, ...] = (1, 2, 3)

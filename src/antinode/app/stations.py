@@ -19,7 +19,7 @@ _PASTE = """(e) => {
   emit({row: Number(cell.closest(".ag-row").getAttribute("row-index")),
         column: cell.getAttribute("col-id"), text: text.slice(0, 2000000)});
 }"""
-_ESCAPE = '(e) => { if (e.target.tagName !== "INPUT") emit(); }'
+_ESCAPE = '(e) => { if (e.key === "Escape" && e.target.tagName === "INPUT") e.stopPropagation(); }'
 _WRONG = {"an-cellwrong": "data.wrong === colDef.field"}
 
 
@@ -36,12 +36,9 @@ class StationsDialog:
         self._table = StationTable((), (), "SI")
         self._row = 0
         self._taken: dict[str, list[float]] = {}
-        self._dialog = ui.dialog().props("no-esc-dismiss")
-        box = ui.card().classes("an-dialog").props('role="dialog" aria-label="Stations"')
-        box.move(self._dialog)
-        with box:
+        self._dialog = ui.dialog().props('aria-label="Stations"')
+        with self._dialog, ui.card().classes("an-dialog"):
             self._build()
-        box.on("keydown.escape", self._dialog.close, js_handler=_ESCAPE)
 
     def _build(self) -> None:
         ui.label("Stations").classes("an-dialogtitle").props('role="heading" aria-level="2"')
@@ -50,6 +47,7 @@ class StationsDialog:
         self._grid.classes("an-grid")
         self._grid.on("cellValueChanged", self._edited, ["rowIndex", "colId", "newValue"])
         self._grid.on("cellFocused", self._focused, ["rowIndex"])
+        self._grid.on("keydown", js_handler=_ESCAPE)  # in a cell it ends the cell only
         self._grid.on("paste", self._pasted, js_handler=_PASTE)
         self._message = ui.label("").classes("an-message").props('role="alert"')
         with ui.row().classes("an-buttons"):
@@ -112,7 +110,7 @@ class StationsDialog:
         return StationTable.of(columns, state.view.units)
 
     def _heads(self) -> list[dict[str, Any]]:
-        number = {"field": "row", "headerName": "", "width": 54, "pinned": "left"}
+        number = {"field": "row", "headerName": "Row", "width": 64, "pinned": "left"}
         return [number, *map(self._head, self._table.names)]
 
     def _head(self, name: str) -> dict[str, Any]:

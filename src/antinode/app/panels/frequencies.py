@@ -68,16 +68,18 @@ def _shown(row: Row, baseline: float | None, view: View) -> dict[str, Any]:
         "hz": None if divergent else frequency,
         "text": "divergent" if divergent else f"{frequency:.6g}",
         "error": "" if divergent else f"{error:.0e}",
-        "shift": "" if math.isnan(row.shift) else f"{row.shift:+.1%}",
-        "shear": "" if divergent or row.model_error is None else f"{row.model_error:+.1%}",
+        "shift": "" if math.isnan(row.shift) else change_text(row.shift, 1),
+        "shear": "" if divergent or row.model_error is None else change_text(row.model_error, 1),
         "baseline": baseline,
-        "change": ""
-        if divergent or not baseline
-        else f"{frequency / baseline - 1:+.2%}".replace("-0.00%", "0.00%").replace(
-            "+0.00%", "0.00%"
-        ),
+        "change": "" if divergent or not baseline else change_text(frequency / baseline - 1, 2),
         "flag": "" if divergent else flag(frequency, view),
     }
+
+
+def change_text(change: float, digits: int) -> str:
+    """Write a relative change with its sign; what rounds to nothing has none."""
+    text = f"{change:+.{digits}%}"
+    return text if any(digit in text for digit in "123456789") else text[1:]
 
 
 def flag(frequency: float, view: View) -> str:

@@ -5,7 +5,20 @@ export default {
   template: `<div hidden><input ref="files" type="file" multiple accept=".toml,.csv" tabindex="-1" aria-hidden="true" @change="chosen" /></div>`,
   props: { address: String },
   mounted() {
-    document.fonts.ready.then(() => this.$emit("ready"));
+    document.documentElement.lang = "en";
+    const system = window.matchMedia("(prefers-color-scheme: dark)");
+    document.fonts.ready.then(() => this.$emit("ready", system.matches));
+    this.themes = new MutationObserver(() => requestAnimationFrame(() => registry.retheme()));
+    this.themes.observe(document.body, { attributes: true, attributeFilter: ["class"] });
+    // Menus and dialogs hang at the end of the body: landmarks of their own for screen readers.
+    this.portals = new MutationObserver((changes) => {
+      for (const node of changes.flatMap((c) => [...c.addedNodes])) {
+        if (!node.id?.startsWith("q-portal--menu")) continue;
+        node.setAttribute("role", "region");
+        node.setAttribute("aria-label", "Menu");
+      }
+    });
+    this.portals.observe(document.body, { childList: true });
     this.over = 0;
     const bar = document.querySelector(".an-app");
     const files = (e) => [...(e.dataTransfer?.types ?? [])].includes("Files");
@@ -16,7 +29,16 @@ export default {
       drop: (e) => {
         if (!files(e)) return;
         e.preventDefault();
-        this.over = 0;
+        // Menus and dialogs hang at the end of the body: landmarks of their own for screen readers.
+    this.portals = new MutationObserver((changes) => {
+      for (const node of changes.flatMap((c) => [...c.addedNodes])) {
+        if (!node.id?.startsWith("q-portal--menu")) continue;
+        node.setAttribute("role", "region");
+        node.setAttribute("aria-label", "Menu");
+      }
+    });
+    this.portals.observe(document.body, { childList: true });
+    this.over = 0;
         bar?.classList.remove("an-drop");
         this.$emit("dropped");
         this.send(e.dataTransfer.files);
@@ -25,6 +47,8 @@ export default {
     for (const [name, listener] of Object.entries(this.listeners)) window.addEventListener(name, listener);
   },
   beforeUnmount() {
+    this.themes?.disconnect();
+    this.portals?.disconnect();
     for (const [name, listener] of Object.entries(this.listeners)) window.removeEventListener(name, listener);
   },
   methods: {
@@ -38,8 +62,8 @@ export default {
     play(on) {
       for (const view of Object.values(registry.views)) view.play?.(on);
     },
-    retheme() {
-      requestAnimationFrame(() => registry.retheme());
+    reset() {
+      registry.views.body?.reset?.();
     },
     async send(list) {
       const form = new FormData();

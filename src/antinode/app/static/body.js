@@ -155,6 +155,10 @@ export function body(element) {
       colours();
       bend();
     },
+    reset() {
+      controls.reset();
+      resize();
+    },
     resize,
     destroy() {
       playing = false;

@@ -5,7 +5,7 @@ const HEADS = [
   ["mode", "Mode"],
   ["hz", "Hz"],
   ["error", "±"],
-  ["bar", ""],
+  ["bar", "on one scale"],
   ["change", "vs pinned"],
   ["shift", "by N"],
   ["shear", "by shear"],
@@ -99,6 +99,21 @@ export function frequencies(element) {
       foot.hidden = data.rows.length > 0 && !flagged.length;
       fit();
       caption.textContent = `Natural frequencies, ${data.family} modes`;
+    },
+  };
+}
+
+// The lowest frequencies in one line, for screens on which the table may be out of sight.
+export function strip(element) {
+  return {
+    show(data) {
+      if (!data.rows.length) return;
+      const parts = data.rows.slice(0, 6).map((r) => {
+        const part = html("span", r.flag ? "an-stripped an-flagrow" : "an-stripped");
+        part.append(html("b", "", `${r.number} `), html("span", "", r.hz === null ? r.text : `${r.text} Hz `));
+        return part;
+      });
+      element.replaceChildren(...parts);
     },
   };
 }

@@ -1,11 +1,11 @@
 // The pictures of the page: each kind makes one picture inside an element from small JSON.
 import { body } from "./body.js";
 import { characteristic, curve, forces, modes } from "./charts.js";
-import { frequencies } from "./frequencies.js";
+import { frequencies, strip } from "./frequencies.js";
 import { notes } from "./notes.js";
 import { vehicle } from "./vehicle.js";
 
-export const kinds = { body, characteristic, curve, forces, frequencies, modes, notes, vehicle };
+export const kinds = { body, characteristic, curve, forces, frequencies, modes, notes, strip, vehicle };
 
 // All pictures of the page by name; what arrives before a picture exists waits for it.
 export const registry = {
@@ -23,6 +23,7 @@ export const registry = {
     delete this.views[name];
   },
   show(name, data) {
+    if (name === "frequencies") this.show("strip", data);
     if (this.views[name]) this.views[name].show(data);
     else this.waiting[name] = data;
   },
