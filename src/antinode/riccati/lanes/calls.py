@@ -68,7 +68,7 @@ def evaluate(chain: Chain, omega2: npt.ArrayLike) -> Evaluation:
 
 def _is_known(chain: Chain) -> bool:
     """Tell whether the compiled form knows all columns of a chain, and its supports."""
-    return chain.is_plain and not _needs_frames(chain)
+    return not _needs_frames(chain)
 
 
 def _needs_frames(chain: Chain) -> bool:

@@ -13,7 +13,7 @@ from antinode.riccati.reasons import CERTIFIED, CLUSTERED
 from . import laws
 from .compiling import compiled, summing
 from .prediction import distance_to_others, divided_out, shifted
-from .workspace import AT, CARRIED_FROM, SHIFT, VALUE
+from .workspace import AT, CARRIED_FROM, GROUND, SHEAR_WORK, SHIFT, VALUE
 
 _EPSILON = 64 * float(np.finfo(float).eps)  # rounding of what is carried, relative
 _SURE = 0.3  # share of a bracket that rounding may take
@@ -29,6 +29,8 @@ def certify(chain, task, total, roots, search):
     root, rounding = roots.omega2, roots.rounding
     for i in range(len(chain.force)):
         most = max(most, abs(chain.force[i]))
+    if chain.more.shape[1]:
+        pull, most = _pull_of_more(chain, pull, most)
     for k in range(len(root)):
         steepness = _steepness(k, task.below, total, root, search.samples)
         rounding[k] = _rounding(chain, search.samples, search.at[k], pull, steepness)
@@ -99,6 +101,17 @@ def _cancelling(omega2, force):
     """Estimate the rounding of omega^2 that is small against what EI and N add to it."""
     wave = force / 2.0 + math.sqrt(force * force / 4.0 + abs(omega2))
     return _EPSILON * (abs(omega2) + 2.0 * force * wave)
+
+
+@summing
+def _pull_of_more(chain, pull, most):
+    """Return the integral and the largest of abs(N) with what shear and foundation add."""
+    h, more, bed = chain.length, chain.more, 0.0
+    for k in range(len(h)):
+        pull += more[SHEAR_WORK, k] * h[k]
+        bed += more[GROUND, k] * h[k]
+        most = max(most, abs(chain.force[k]) + more[SHEAR_WORK, k])
+    return pull + math.sqrt(bed), most
 
 
 @summing

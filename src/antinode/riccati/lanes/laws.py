@@ -14,17 +14,19 @@ from typing import NamedTuple
 from antinode.riccati.laws import BAR, BENDING, SHAFT, Law
 from antinode.riccati.points import Point
 
-from . import bending, pieces, wave
+from . import bending, pieces, sheared, wave
 from .compiling import compiled
 from .workspace import LANES, OMEGA2, POWER
 
-_BENDING, _WAVE = 0, 1
+_BENDING, _WAVE, _SHEARED = 0, 1, 2
 
 
 class Form(NamedTuple):
     """The compiled form of a law."""
 
     number: int
+    with_more: int
+    """Its number where segments have more columns than they must."""
     ends: dict[str, int]
     point: Callable[[Point, float, float, float], tuple[float, ...]]
     """Columns of a point, dimensionless by length, mean stiffness and mean m."""
@@ -58,9 +60,9 @@ def _wave_point(p: Point, L: float, K0: float, m0: float) -> tuple[float, ...]:
     return mass, 0.0, 0.0, spring, 0.0, 0.0, 0.0, p.compliance * K0 / L
 
 
-_OF_WAVES = Form(_WAVE, wave.ENDS, _wave_point, supports=False, shapes=False)
+_OF_WAVES = Form(_WAVE, _WAVE, wave.ENDS, _wave_point, supports=False, shapes=False)
 FORMS: dict[Law, Form] = {
-    BENDING: Form(_BENDING, bending.ENDS, _bending_point, supports=True, shapes=True),
+    BENDING: Form(_BENDING, _SHEARED, bending.ENDS, _bending_point, supports=True, shapes=True),
     BAR: _OF_WAVES,
     SHAFT: _OF_WAVES._replace(force_sign=-1.0),
 }
@@ -69,7 +71,7 @@ FORMS: dict[Law, Form] = {
 @compiled
 def omega2_unit(law, L, m0, K0):
     """Return omega^2 [rad^2/s^2] that is 1 without units."""
-    return K0 / (m0 * L * L * L * L) if law == _BENDING else K0 / (m0 * L * L)
+    return K0 / (m0 * L * L * L * L) if law != _WAVE else K0 / (m0 * L * L)
 
 
 @compiled
@@ -78,6 +80,8 @@ def count_pieces(chain, force, omega2):
     h, m, K, starts = chain.length, chain.mass, chain.stiffness, chain.starts
     if chain.law == _BENDING:
         return pieces.count_pieces(h, m, K, force, omega2, starts)
+    if chain.law == _SHEARED:
+        return sheared.count_pieces(h, m, K, force, chain.more, omega2, starts)
     return wave.count_pieces(h, m, K, omega2, starts)
 
 
@@ -87,6 +91,8 @@ def fill_table(chain, table):
     h, m, K, starts, marks = chain.length, chain.mass, chain.stiffness, chain.starts, chain.marks
     if chain.law == _BENDING:
         pieces.fill_table(h, m, K, chain.force, starts, marks, table)
+    elif chain.law == _SHEARED:
+        sheared.fill_table(h, m, K, chain.force, chain.more, starts, marks, table)
     else:
         wave.fill_table(h, m, K, starts, marks, table)
 
@@ -107,7 +113,7 @@ def start(chain, lanes):
         lanes.state[k] = 0.0
     for lane in range(LANES):
         lanes.state[POWER + lane] = 0.0
-    if chain.law == _BENDING:
+    if chain.law != _WAVE:
         bending.start(chain.left, lanes.state, lanes.sign)
     else:
         wave.start(chain.left, lanes.state, lanes.sign)
@@ -118,6 +124,8 @@ def advance(law, table, state, first, last):
     """Carry the lanes through pieces, and count."""
     if law == _BENDING:
         bending.advance(table, state, first, last)
+    elif law == _SHEARED:
+        sheared.advance(table, state, first, last)
     else:
         wave.advance(table, state, first, last)
 
@@ -125,7 +133,7 @@ def advance(law, table, state, first, last):
 @compiled
 def to_chain_units(law, table, piece, state):
     """Take the lanes out of the units of a piece."""
-    if law == _BENDING:
+    if law != _WAVE:
         bending.to_chain_units(table, piece, state)
     else:
         wave.to_chain_units(table, piece, state)
@@ -134,7 +142,7 @@ def to_chain_units(law, table, piece, state):
 @compiled
 def pass_point(law, point, lanes):
     """Apply what stands at a node."""
-    if law == _BENDING:
+    if law != _WAVE:
         bending.pass_point(point, lanes.state, lanes.sign)
     else:
         wave.pass_point(point, lanes.state)
@@ -143,7 +151,7 @@ def pass_point(law, point, lanes):
 @compiled
 def finish(chain, lanes):
     """Count what the right end leaves free, and set the characteristic function."""
-    if chain.law == _BENDING:
+    if chain.law != _WAVE:
         bending.finish(chain.right, lanes.state, lanes.value)
     else:
         wave.finish(chain.right, lanes.state, lanes.value)
@@ -155,6 +163,8 @@ def first_samples(chain, number, samples):
     h, m, K = chain.length, chain.mass, chain.stiffness
     if chain.law == _BENDING:
         bending.first_samples(h, m, K, chain.force, number, samples)
+    elif chain.law == _SHEARED:
+        sheared.first_samples(h, m, K, chain.force, chain.more, number, samples)
     else:
         wave.first_samples(h, m, K, number, samples)
     samples[number] = -1.0
@@ -164,6 +174,6 @@ def first_samples(chain, number, samples):
 @compiled
 def size_and_unit(chain, omega2, force, carried):
     """Return the size of what is carried, and the unit of the characteristic function in it."""
-    if chain.law == _BENDING:
+    if chain.law != _WAVE:
         return bending.size_and_unit(omega2, force, chain.right, carried)
     return wave.size_and_unit(omega2, chain.right, carried)

@@ -255,6 +255,7 @@ def _to_chain(n, interior, nodes, beam, L, m0, EI0):
         own.starts[: n + 1],
         own.marks[: n + 1],
         nodes.scaled,
+        own.more,
     )
 
 

@@ -90,16 +90,16 @@ def fill_table(h, m, EI, N, starts, marks, table):
             for i in range(starts[k], starts[k + 1]):
                 length[i], flexibility[i] = size, f
                 n[i], inertia[i] = N[k] * (size * size * f), 2.0 * m[k]
-    _fill_ratios(table, last)
+    fill_ratios(table, last)
     for k in range(len(h)):
         if marks[k] >= 0:
-            _fill_ratio(table, starts[k])
-    _fill_ratio(table, 0)
+            fill_ratio(table, starts[k])
+    fill_ratio(table, 0)
     _fill_series(table, last)
 
 
 @compiled
-def _fill_ratios(table, last):
+def fill_ratios(table, last):
     """Fill what depends on the units of a piece and of the one before; and complete 2c/omega^2."""
     wide_vectors()
     inertia, length, flexibility = table[INERTIA], table[LENGTH], table[FLEXIBILITY]
@@ -114,7 +114,7 @@ def _fill_ratios(table, last):
 
 
 @compiled
-def _fill_ratio(table, i):
+def fill_ratio(table, i):
     """Fill the ratios of the units of one piece to those of the chain."""
     r, s = table[LENGTH, i], table[FLEXIBILITY, i]
     table[RATIO, i], table[RATIO_E, i] = r * s, r * r * s

@@ -19,7 +19,7 @@ from . import laws
 from .compiling import compiled, summing
 from .pieces import refill_force
 from .search import find_roots
-from .workspace import Roots
+from .workspace import GROUND, ROTARY_INERTIA, SHEAR, SHEAR_WORK, Roots
 
 _REACH = 1.2  # of a table that serves many rows, over the highest root
 _MORE_FORCE = 1.1
@@ -46,6 +46,17 @@ def _means(h, m, K):
 
 
 @compiled
+def _scale_more(more, L, m0, K0):
+    """Make s, sN^2, rho I and k dimensionless."""
+    square = L * L
+    for k in range(more.shape[1]):
+        more[SHEAR, k] *= K0 / square
+        more[SHEAR_WORK, k] *= square / K0
+        more[ROTARY_INERTIA, k] /= m0 * square
+        more[GROUND, k] *= square * square / K0
+
+
+@compiled
 def make_dimensionless(chain):
     """Make a chain dimensionless; return the unit of omega^2, length, mean m and mean stiffness."""
     h, m, K, N = chain.length, chain.mass, chain.stiffness, chain.force
@@ -53,6 +64,7 @@ def make_dimensionless(chain):
     for k in range(len(h)):
         h[k], m[k] = h[k] / L, m[k] / m0
         K[k], N[k] = K[k] / K0, N[k] * (L * L / K0)
+    _scale_more(chain.more, L, m0, K0)
     return laws.omega2_unit(chain.law, L, m0, K0), L, m0, K0
 
 

@@ -40,7 +40,11 @@ class SingleChain:
     def __init__(self, chain: Chain) -> None:
         form, n = FORMS[chain.law], len(chain.length)
         self.sign = form.sign(chain.left, chain.right)
-        own = new_chain(form.number, form.ends[chain.left], form.ends[chain.right], n)
+        ends = form.ends[chain.left], form.ends[chain.right]
+        number = form.number if chain.is_plain else form.with_more
+        own = new_chain(number, *ends, n, not chain.is_plain)
+        for k, column in enumerate(() if chain.is_plain else chain.law.more):
+            own.more[k] = chain.columns.get(column, 0.0)
         own.length[:], own.mass[:], own.stiffness[:] = chain.length, chain.mass, chain.stiffness
         if chain.law.has_axial_force:
             own.force[:] = chain.axial_force

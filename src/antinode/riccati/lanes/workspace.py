@@ -25,7 +25,15 @@ SERIES_0, SERIES_1, SERIES_2, SERIES_3 = 0, 4, 8, 12
 FORCE = 16
 """n = N h^2/EI."""
 RATIO_E, RATIO_D, RATIO_F = 19, 20, 21
+# Lateral motion with more columns, in place of the series:
+TURN_FORCE, TURN_INERTIA, FOUNDATION, HALF_SHEAR, COUPLING, KAPPA, KAPPA_INERTIA = range(7)
+"""(N + sN^2) h^2/EI; rho I h^2/EI; 2k h^4/EI; s EI/(2 h^2); alpha; kappa, and how it falls with
+omega^2."""
 ROWS = 24
+
+# Rows of what lateral segments may have besides: s, sN, sN^2, rho I, k.
+SHEAR, SHEAR_TURN, SHEAR_WORK, ROTARY_INERTIA, GROUND = range(5)
+MORE = 5
 
 # The state: lanes side by side, row after row. What a frame of bending has as minors a, b, 2e, 2d,
 # 2f in the units of the last piece; a wave has u where a stands, and its force where b stands.
@@ -84,6 +92,8 @@ class Chain(NamedTuple):
     """Which point stands at every node, -1 for none, shape (n + 1,)."""
     points: Array
     """Shape (points, 8)."""
+    more: Array
+    """What segments have besides, shape (5, n); (5, 0) where they have nothing."""
 
 
 class Lanes(NamedTuple):
@@ -240,12 +250,14 @@ def new_search(roots: int) -> Search:
     )
 
 
-def new_chain(law: int, left: int, right: int, segments: int) -> Chain:
+def new_chain(law: int, left: int, right: int, segments: int, more: bool = False) -> Chain:
     """Return room for a chain without points."""
     marks = np.full(segments + 1, -1)
     starts = np.empty(segments + 1, np.int64)
     length, mass, stiffness, force = np.zeros((4, segments))
-    return Chain(law, left, right, length, mass, stiffness, force, starts, marks, NO_POINTS)
+    besides = np.zeros((MORE, segments if more else 0))
+    own = length, mass, stiffness, force, starts, marks, NO_POINTS, besides
+    return Chain(law, left, right, *own)
 
 
 def new_levels(law: int, intervals: int, segments: int, table: Array, roots: int) -> Levels:
