@@ -16,6 +16,7 @@ import numpy as np
 
 from antinode.arguments import ByValue, choice, owned, whole
 from antinode.arrays import Array, Integers
+from antinode.beam.checks import ShearForm
 from antinode.beam.ends import FREE, Ends
 from antinode.beam.families import BENDING, FAMILIES, Family, FamilyName
 from antinode.errors import InputError
@@ -46,7 +47,8 @@ REASONS = (
     "out of reach: stiffness, mass and axial force of one segment do not go together",
     "not certified: the counts did not bracket every mode",
     "not certified: the characteristic function is not finite",
-    "invalid: length, mass and stiffness must be positive, and everything finite",
+    "invalid: length, mass and stiffness must be positive, everything finite, and the axial force "
+    "less than the stiffness in shear can bear",
     "not certified: modes too close to each other for the counts between them",
     "past buckling: omega^2 of the first mode is negative",
     "flutter: a pair of modes grows while it oscillates",
@@ -81,6 +83,11 @@ class BeamBatch(ByValue):
     end_force : array, shape (2,) or (beams, 2), optional
         The forces at both ends of which `ends` lets a share turn with the end [N]; by default N of
         the first and the last segment.
+    shear_stiffness, rotary_inertia_per_length, foundation_stiffness, added_mass_per_length : array
+        Of bending, as the others, optional: kGA [N], or inf; rho I [kg m]; [N/m^2]; [kg/m]. A
+        foundation holds every beam of a batch, or none.
+    shear_form : {"haringx", "engesser"}
+        How the axial force and shear meet.
 
     Raises
     ------
@@ -105,16 +112,22 @@ class BeamBatch(ByValue):
     torsional_stiffness: Array | None = None
     polar_inertia_per_length: Array | None = None
     end_force: Array | None = None
+    shear_stiffness: Array | None = None
+    rotary_inertia_per_length: Array | None = None
+    foundation_stiffness: Array | None = None
+    added_mass_per_length: Array | None = None
+    shear_form: ShearForm = "haringx"
     _one_structure: bool = field(default=False, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         choice("family", self.family, FamilyName)
+        choice("shear_form", self.shear_form, ShearForm)
         object.__setattr__(self, "modes", whole("modes", self.modes, 500))
         tables = self._given()
         rows, n = _common_shape(tables)
         object.__setattr__(self, "_one_structure", self._varies_by_force(tables))
         for name, values in tables.items():
-            shape = (_rows(values) if name == "length" else rows, n)
+            shape = (_rows(values) if name in ("length", *_MORE) else rows, n)
             if values.shape != shape:
                 same = values.size == shape[0] * n
                 values = values.reshape(shape) if same else np.broadcast_to(values, shape)
@@ -130,16 +143,19 @@ class BeamBatch(ByValue):
         for name in _TABLES:
             if (getattr(self, name) is None) == (name in tables) and name != force:
                 self._refuse(family)
+        if any(getattr(self, name) is not None for name in _MORE if name not in family.more):
+            self._refuse(family)
         if force and getattr(self, force) is None:
             object.__setattr__(self, force, np.zeros(1))
-        return {name: owned(name, getattr(self, name)) for name in ("length", *tables)}
+        more = (name for name in _MORE if getattr(self, name) is not None)
+        return {name: owned(name, getattr(self, name)) for name in ("length", *tables, *more)}
 
     def _refuse(self, family: Family) -> None:
         """Say which arrays are missing, and which are of another family."""
         force = family.columns.get("axial_force")
-        given = [name for name in _TABLES if getattr(self, name) is not None]
+        given = [name for name in (*_TABLES, *_MORE) if getattr(self, name) is not None]
         missing = [name for name in family.tables if name not in given and name != force]
-        foreign = [name for name in given if name not in family.tables]
+        foreign = [name for name in given if name not in (*family.tables, *family.more)]
         wrong = [f"{name} is missing" for name in missing]
         wrong += [f"{name} is given, of another family: leave it out" for name in foreign]
         allowed = ", ".join(f"{t} (optional)" if t == force else t for t in family.tables)
@@ -158,6 +174,14 @@ class BeamBatch(ByValue):
 
 
 _TABLES = tuple(dict.fromkeys(name for family in FAMILIES.values() for name in family.tables))
+
+
+_MORE = (
+    "shear_stiffness",
+    "rotary_inertia_per_length",
+    "foundation_stiffness",
+    "added_mass_per_length",
+)
 
 
 def _rows(values: Array) -> int:
@@ -270,11 +294,11 @@ def _settle(solver: Backend, batch: BeamBatch, found: ChainRoots) -> None:
 
 def _solve(solver: Backend, batch: BeamBatch) -> ChainRoots:
     """Solve chain after chain; where loads alone vary, by guesses from a few of them."""
-    below, chains = rigid_modes_of(batch.ends, batch.family), _chains(batch)
+    below, chains = _rigid(batch), _chains(batch)
     if chains.following is not None:
         return ChainRoots.empty(len(chains), batch.modes, BY_ITSELF)
     guess = None
-    if batch._one_structure and solver.name != "numpy":
+    if batch._one_structure and chains.more is None and solver.name != "numpy":
         guess = guess_omega2(chains.axial_force, lambda N: _exact(batch, N))
     if guess is None:
         return solver.solve_chains(chains, below, batch.modes, _WIDTH)
@@ -288,6 +312,12 @@ def _solve(solver: Backend, batch: BeamBatch) -> ChainRoots:
     return found
 
 
+def _rigid(batch: BeamBatch) -> int:
+    """Return how many rigid modes every beam of the batch has: a foundation leaves none."""
+    bed = batch.foundation_stiffness
+    return 0 if bed is not None and np.any(bed) else rigid_modes_of(batch.ends, batch.family)
+
+
 def _chains(batch: BeamBatch) -> Chains:
     """Return the beams as chains; where a law has no axial force, it is zero."""
     family = FAMILIES[batch.family]
@@ -295,7 +325,10 @@ def _chains(batch: BeamBatch) -> Chains:
     m, stiffness = columns["mass"], columns["stiffness"]
     N = columns["axial_force"] if family.law.has_axial_force else np.zeros(m.shape)
     ends = batch.ends.of(batch.family)
-    return Chains(family.law, batch.length, m, stiffness, N, *ends, _following(batch, N))
+    more = _more(batch, N)
+    if batch.added_mass_per_length is not None:
+        m = m + batch.added_mass_per_length
+    return Chains(family.law, batch.length, m, stiffness, N, *ends, _following(batch, N), more)
 
 
 def _following(batch: BeamBatch, N: Array) -> Array | None:
@@ -305,6 +338,22 @@ def _following(batch: BeamBatch, N: Array) -> Array | None:
         return None
     outside = N[:, [0, -1]] if batch.end_force is None else batch.end_force
     return np.ascontiguousarray(np.broadcast_to(shares * outside, (len(N), 2)))
+
+
+def _more(batch: BeamBatch, N: Array) -> dict[str, Array] | None:
+    """Return what segments have besides, a single row where it is the same for all beams."""
+    kGA, columns = batch.shear_stiffness, dict[str, Array]()
+    if kGA is not None:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            columns["shear"] = 1.0 / (kGA - N if batch.shear_form == "engesser" else kGA)
+    if batch.rotary_inertia_per_length is not None:
+        columns["rotary_inertia"] = batch.rotary_inertia_per_length
+    if batch.foundation_stiffness is not None:
+        columns["foundation"] = batch.foundation_stiffness
+    if not columns:
+        return None
+    none = np.zeros((1, N.shape[1]))
+    return {"shear": none, "rotary_inertia": none, "foundation": none} | columns
 
 
 def _exact(batch: BeamBatch, force: Array) -> Array:
@@ -322,10 +371,10 @@ def _alone(solver: Backend, batch: BeamBatch, row: int, results: ChainRoots) -> 
     Modes that nearly coincide are parted by frames; past buckling an elastic mode lies below the
     translation, whose omega^2 = 0 is set aside.
     """
-    below, chain = rigid_modes_of(batch.ends, batch.family), _chains(batch)[row]
+    below, chain = _rigid(batch), _chains(batch)[row]
     if not _is_valid(chain):
         return INVALID
-    zeros = zeros_of(batch.ends, chain)
+    zeros = zeros_of(batch.ends, chain) if below else 0
     try:
         found = eigenvalues_alone(solver, chain, below + batch.modes, zeros, _WIDTH)
         if not check_certificate(found):
@@ -346,6 +395,9 @@ def _alone(solver: Backend, batch: BeamBatch, row: int, results: ChainRoots) -> 
 def _is_valid(chain: Chain) -> bool:
     """Tell whether lengths, masses and stiffnesses are positive, and all is finite."""
     structure = np.concatenate([chain.length, chain.mass, chain.stiffness])
+    if "shear_turn" in chain.columns:
+        c = chain.columns
+        structure = np.append(structure, [np.min(1 + c["shear_turn"]), np.min(c["shear"] + 1e-300)])
     finite = all(np.all(np.isfinite(values)) for values in (structure, *chain.columns.values()))
     return bool(finite and np.all(structure > 0))
 

@@ -33,6 +33,7 @@ from .frames import (
     hold,
     inverse_upper,
     orthonormalise,
+    pass_off_centre,
     turning,
 )
 from .laws import Columns, Law, LawName, Units
@@ -255,29 +256,42 @@ class Steps(NamedTuple):
     holds: list[tuple[int, ...]]
     """Displacements held by every step that is a support."""
     symplectic: Array
+    off_centre: dict[int, tuple[Array, Array]]
+    """Of a step with a mass off its node: how far off, scaled, and the step without that mass."""
 
     def reversed(self) -> Steps:
         """Return the steps as the sweep from the right end passes them."""
         J = self.symplectic
-        inverse = -J @ np.swapaxes(self.U, -1, -2) @ J
-        return Steps(inverse[::-1], self.kind[::-1], self.holds[::-1], J)
+        last = len(self.U) - 1
+
+        def inverse(U: Array) -> Array:
+            return np.asarray(-J @ np.swapaxes(U, -1, -2) @ J)
+
+        off = {last - i: (arm, inverse(own)) for i, (arm, own) in self.off_centre.items()}
+        return Steps(inverse(self.U)[::-1], self.kind[::-1], self.holds[::-1], J, off)
 
 
 def make_steps(chain: Chain, omega2: Array, blocks: Array, starts: Integers) -> Steps:
     """Put the points of a chain between its blocks."""
     J = chain.law.symplectic
     if not chain.points:
-        return Steps(blocks, ["block"] * len(blocks), [()] * len(blocks), J)
+        return Steps(blocks, ["block"] * len(blocks), [()] * len(blocks), J, {})
     units = state_units(chain, omega2)
     at = {point.node: point for point in chain.points}
     steps: list[tuple[StepKind, Array, tuple[int, ...]]] = []
+    off: dict[int, tuple[Array, Array]] = {}
     for k, node in enumerate([*starts.tolist(), len(chain.length)]):
         if node in at:
-            steps += point_steps(chain.law, at[node], omega2, units)
+            point, own = at[node], replace(at[node], mass=0.0)
+            if point.mass and point.offset:
+                arm = point.offset * units[:, 1] / units[:, 0]
+                place = len(steps) + bool(point.holds)
+                off[place] = arm, _scaled(chain.law.load(own, omega2), units)
+            steps += point_steps(chain.law, point, omega2, units)
         if k < len(blocks):
             steps.append(("block", blocks[k], ()))
     kinds, matrices, holds = zip(*steps, strict=True)
-    return Steps(np.stack(matrices), list(kinds), list(holds), J)
+    return Steps(np.stack(matrices), list(kinds), list(holds), J, off)
 
 
 def point_steps(
@@ -332,6 +346,8 @@ def sweep(steps: Steps, start: Array) -> Sweep:
         if rows:
             F[i + 1], held[i + 1], cut = hold(F[i], rows)
             factor = factor * cut
+        elif i in steps.off_centre and not np.iscomplexobj(F):
+            F[i + 1], held[i + 1] = pass_off_centre(F[i], U, *steps.off_centre[i])
         else:
             F[i + 1], R[i + 1] = orthonormalise(U @ F[i])
     back = inverse_upper(R)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -31,6 +31,8 @@ class Chains:
     right: str
     following: Array | None = None
     """kappa of both ends [N], shape (chains, 2); None where no force turns with its end."""
+    more: Mapping[str, Array] | None = None
+    """What segments have besides: flexibility in shear s, rotary inertia, foundation; all three."""
 
     def __len__(self) -> int:
         return len(self.axial_force)
@@ -43,6 +45,9 @@ class Chains:
         ends = (0.0, 0.0)
         if self.following is not None:
             ends = float(self.following[row, 0]), float(self.following[row, 1])
+        if self.more is not None:
+            own |= {name: v[row if len(v) > 1 else 0] for name, v in self.more.items()}
+            own |= {"shear_turn": own["shear"] * N, "shear_work": own["shear"] * N**2}
         return Chain(self.law, h, own, self.left, self.right, following=ends)
 
     @property
@@ -52,9 +57,15 @@ class Chains:
 
     def some(self, rows: Integers) -> Chains:
         """Return some of them."""
-        h, m, stiffness, N = (v if len(v) == 1 < len(self) else v[rows] for v in self.arrays)
+
+        def part(values: Array) -> Array:
+            return values if len(values) == 1 < len(self) else values[rows]
+
+        more = None if self.more is None else {name: part(v) for name, v in self.more.items()}
+        h, m, stiffness, N = map(part, self.arrays)
         following = None if self.following is None else self.following[rows]
-        return Chains(self.law, h, m, stiffness, N, self.left, self.right, following)
+        ends = self.left, self.right
+        return Chains(self.law, h, m, stiffness, N, *ends, following, more)
 
 
 class ChainRoots(NamedTuple):

@@ -105,6 +105,38 @@ def hold(F: Array, rows: tuple[int, ...]) -> tuple[Array, Array, Array]:
     return new, back, np.ones(lanes)
 
 
+def pass_off_centre(F: Array, U: Array, arm: Array, own: Array) -> tuple[Array, Array]:
+    """Pass a lateral frame through a mass whose centre is off the node.
+
+    Turned so that in its second column the centre rests, and the mass itself does nothing: what
+    the rotary inertia J adds there would drown in J + m d^2.
+
+    Parameters
+    ----------
+    F : array, shape (k, 4, 2)
+    U, own : array, shape (k, 4, 4)
+        The step, and what it is without the mass, but with its rotary inertia.
+    arm : array, shape (k,)
+
+    Returns
+    -------
+    F : array, shape (k, 4, 2)
+    back : array, shape (k, 2, 2)
+        Coefficients on the left are these times those on the right.
+    """
+    centre = F[:, 0] + arm[:, None] * F[:, 1]
+    size = np.copysign(np.hypot(centre[:, 0], centre[:, 1]), centre[:, 0])
+    safe = np.where(size == 0, 1.0, size)
+    c, s = (
+        np.where(size == 0, 1.0, centre[:, 0] / safe),
+        np.where(size == 0, 0.0, centre[:, 1] / safe),
+    )
+    turn = np.stack([np.stack([c, -s], axis=-1), np.stack([s, c], axis=-1)], axis=-2)
+    turned = F @ turn
+    new, R = orthonormalise(np.concatenate([U @ turned[..., :1], own @ turned[..., 1:]], axis=-1))
+    return new, turn @ inverse_upper(R)
+
+
 def displacement_sign(F: Array, behind: float) -> Array:
     """Return what changes its sign where a state of the frame has no displacement.
 

@@ -20,6 +20,7 @@ import math
 from .compiling import compiled, wide_vectors
 from .workspace import (
     CARRIED,
+    CENTRAL,
     COMPLIANCE,
     COUNT,
     FIRST_MOMENT,
@@ -137,7 +138,10 @@ def pass_point(point, state, sign):
         across = omega2 * point[FIRST_MOMENT]
         along = omega2 * point[MASS] - point[SPRING]
         turn = point[TURNING] - omega2 * point[ROTARY]
-        f += turn * d - 2.0 * across * e - along * b - (across * across + along * turn) * a
+        own = (
+            omega2 * point[MASS] * (point[TURNING] - omega2 * point[CENTRAL]) - point[SPRING] * turn
+        )
+        f += turn * d - 2.0 * across * e - along * b - own * a
         b, e, d = b + turn * a, e + across * a, d - along * a
         sign[lane] = -before if hold_Y and not hold_theta else before
         a, d = a + point[COMPLIANCE] * b, d + point[COMPLIANCE] * f

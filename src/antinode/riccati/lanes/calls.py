@@ -5,6 +5,8 @@ As `riccati.readable` does, it answers the calls of a backend.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import numpy.typing as npt
 
@@ -20,10 +22,10 @@ from antinode.riccati.roots import find_eigenvalues as find_readable
 from .laws import FORMS
 from .library import library
 from .scratch import Need, new_table, scratch
-from .single import Found, SingleChain
+from .single import Found, SingleChain, more_columns
 from .states import mode_energies, mode_states
 from .structures import Kept
-from .workspace import NO_POINTS, POINT, ROWS, Interior, Nodes, Task, Warmth
+from .workspace import NO_POINTS, POINT, ROWS, Interior, Nodes, Task, Warmth, new_chain
 from .workspace import Chain as Own
 
 __all__ = [
@@ -44,6 +46,7 @@ PARTED = 1e-7
 
 _MANY = 64  # chains of a batch from which integrals over shapes are worth their time
 _GUESSED = 1e-8  # relative width of brackets of the chain in the middle of a batch
+_NO_MORE = np.empty((1, 0))
 _NO_NODES = Nodes(np.empty(0, np.int64), NO_POINTS, NO_POINTS)
 
 
@@ -125,21 +128,31 @@ def _whole(chains: Chains) -> tuple[Array, ...]:
         return values if values.flags.c_contiguous else np.ascontiguousarray(values)
 
     m, stiffness, N = (whole(values) for values in chains.arrays[1:])
-    return np.ascontiguousarray(chains.length), m, stiffness, N
+    more = 3 * (_NO_MORE,) if chains.more is None else map(np.ascontiguousarray, _more(chains.more))
+    return np.ascontiguousarray(chains.length), m, stiffness, N, *more
+
+
+def _more(columns: Mapping[str, Array]) -> tuple[Array, ...]:
+    """Return s, rotary inertia and foundation of many chains."""
+    return columns["shear"], columns["rotary_inertia"], columns["foundation"]
 
 
 def _own(chains: Chains) -> Kept[Own]:
     """Return room for one of them."""
     form = FORMS[chains.law]
     ends = form.ends[chains.left], form.ends[chains.right]
-    return scratch.chain(form.number, *ends, chains.length.shape[1])
+    n, plain = chains.length.shape[1], chains.more is None
+    if plain:
+        return scratch.chain(form.number, *ends, n)
+    return Kept(new_chain(form.with_more, *ends, n, more=True))
 
 
 def _weights(chains: Chains, below: int, roots: int) -> Array:
     """Return integrals of Y''^2, Y'^2 and Y^2 over the segments of the mean chain, (3, roots, n).
 
     They tell how a root moves with the chain: what starts a search, and never what it finds. None
-    where they are not worth their time, or cannot be had: (3, 0, n).
+    where they are not worth their time, or cannot be had: (3, 0, n). Where there is shear, those of
+    Q^2 and of twice its mean energy follow, (5, roots, n): the energy falls as s rises.
     """
     none = np.empty((3, 0, chains.length.shape[1]))
     if len(chains) < _MANY or len(chains.length) > 1 or not FORMS[chains.law].shapes:
@@ -149,6 +162,10 @@ def _weights(chains: Chains, below: int, roots: int) -> Array:
         if not np.all(np.isfinite(m + EI + N)):
             return none
         h, columns = chains.length[0], chains.law.named(m, EI, N)
+        if chains.more is not None:
+            columns |= {name: np.mean(values, axis=0) for name, values in chains.more.items()}
+            s = columns["shear"]
+            columns |= {"shear_turn": s * N, "shear_work": s * N**2}
         weights = _squares(Chain(chains.law, h, columns, chains.left, chains.right), below, roots)
     return none if weights is None or not np.all(np.isfinite(weights)) else weights
 
@@ -158,10 +175,14 @@ def _squares(chain: Chain, below: int, roots: int) -> Array | None:
     if found.reason != CERTIFIED:
         return None
     states = mode_states(chain, found.omega2, np.ones(roots, np.int64)).transpose(2, 1, 0)
-    squares = (states[:3, :, 1:] ** 2 + states[:3, :, :-1] ** 2) * (chain.length / 2)
-    weights = squares[::-1] / (squares[0] @ chain.mass)[:, None]
+    squares = (states[:, :, 1:] ** 2 + states[:, :, :-1] ** 2) * (chain.length / 2)
+    weights = squares[2::-1] / (squares[0] @ chain.mass)[:, None]
     weights[0] /= chain.stiffness**2
-    return np.ascontiguousarray(weights)
+    if chain.is_plain:
+        return np.ascontiguousarray(weights)
+    sheared = squares[3] / (squares[0] @ chain.mass)[:, None]
+    twice = 2 * sheared * more_columns(chain)[0]
+    return np.ascontiguousarray(np.concatenate([weights, [sheared, twice]]))
 
 
 def certify_guesses(chains: Chains, guess: Array, below: int, width: float) -> ChainRoots:

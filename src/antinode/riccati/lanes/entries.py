@@ -11,7 +11,7 @@ import numpy as np
 
 from antinode.riccati.chains import ChainRoots
 
-from . import laws, levels, passing, rows, search, shapes
+from . import laws, levels, rows, search, shapes
 from .structures import Kept
 from .workspace import (
     NO_POINTS,
@@ -23,6 +23,7 @@ from .workspace import (
     new_lanes,
     new_levels,
     new_roots,
+    new_scaled,
     new_search,
 )
 
@@ -34,19 +35,20 @@ _chain, _lanes, _search = new_chain(1, 1, 1, 1), Kept(new_lanes()), Kept(new_sea
 _kept_chain = Kept(_chain)
 _task, _warmth = Task(1, 1.0, True), Warmth(_i1, _f1, _f1, _f3, _f2)
 _interior = Interior(1, 1, 1.0, True, 1.0, 1.0, 1)
+_scaled = new_scaled(1)
 _found = ChainRoots.empty(1, 1)
 
 ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "scale": (rows.scale, (_chain, _f1)),
     "prepare": (laws.prepare, (_chain, _f, _f2)),
-    "evaluate": (passing.evaluate, (_chain, _f1, _f2, _lanes, _i1, _f1)),
+    "evaluate": (search.evaluate, (_chain, _f1, _f2, _lanes, _i1, _f1)),
     "find_roots": (
         search.find_roots,
         (_chain, _task, _b, _f, new_roots(1), _f2, _lanes, _search),
     ),
     "solve_rows": (
         rows.solve_rows,
-        ((_f2, _f2, _f2, _f2), _i, _kept_chain, _task, _warmth, _f2, _lanes, _search, _found),
+        (7 * (_f2,), _i, _kept_chain, _task, _warmth, _f2, _lanes, _search, _found),
     ),
     "certify_rows": (
         rows.certify_rows,
@@ -59,14 +61,14 @@ ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
             *(_i, _i, _f, _f),
         ),
     ),
-    "scaled_chain": (shapes.scaled_chain, (_f1, _f1, _f1, _f1, _f1, _f, _f1, _f2, _f2)),
-    "transfers": (shapes.transfers, (_f1, _f1, _f2, _f2, _f1, _f2, _f3)),
+    "scaled_chain": (shapes.scaled_chain, (_f1, _f1, _f1, _f2, _f1, _f1, _f, _scaled)),
+    "transfers": (shapes.transfers, (_f1, _scaled, _f1, _f2, _f3)),
     "sweeps": (shapes.sweeps, (_f3, _i1, _f3, _i2, _f2, _f3, _f3, _f3, _f3)),
     "meet": (shapes.meet, (_f3, _f3, _f2, _i1, _f2)),
     "carry": (shapes.carry, (_f3, _f3, _f3, _f3, _i1, _f2, _f2, _f3)),
     "squares": (
         shapes.squares,
-        (_f1, _f1, _f2, _f2, _f1, _f2, _f3, _f1, _f1, _f2, _f3),
+        (_f1, _f1, _scaled, _f1, _f2, _f3, _f1, _f1, _f2, _f3),
     ),
-    "repeat": (passing.repeat, (_chain, _f2, _lanes, _i, _i)),
+    "repeat": (search.repeat, (_chain, _f2, _lanes, _i, _i)),
 }

@@ -24,6 +24,7 @@ from . import laws
 from .compiling import compiled
 from .search import find_roots
 from .workspace import (
+    CENTRAL,
     COMPLIANCE,
     FIRST_MOMENT,
     HOLDS_THETA,
@@ -227,6 +228,7 @@ def _scale_points(nodes, L, m0, EI0):
         scaled[MASS] = point[MASS] / mass
         scaled[FIRST_MOMENT] = point[FIRST_MOMENT] / (mass * L)
         scaled[ROTARY] = point[ROTARY] / (mass * L * L)
+        scaled[CENTRAL] = point[CENTRAL] / (mass * L * L)
         scaled[SPRING] = point[SPRING] / spring
         scaled[TURNING] = point[TURNING] / (spring * L * L)
         scaled[HOLDS_Y], scaled[HOLDS_THETA] = point[HOLDS_Y], point[HOLDS_THETA]

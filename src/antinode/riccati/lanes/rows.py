@@ -19,7 +19,7 @@ from . import laws
 from .compiling import compiled, summing
 from .pieces import refill_force
 from .search import find_roots
-from .workspace import GROUND, ROTARY_INERTIA, SHEAR, SHEAR_WORK, Roots
+from .workspace import GROUND, ROTARY_INERTIA, SHEAR, SHEAR_TURN, SHEAR_WORK, Roots
 
 _REACH = 1.2  # of a table that serves many rows, over the highest root
 _MORE_FORCE = 1.1
@@ -75,7 +75,7 @@ def scale(chain, units):
 
 
 @summing
-def _quotients(weights, mass, stiffness, force, quotient):
+def _quotients(weights, mass, stiffness, force, more, quotient):
     """Set Rayleigh's quotients of given shapes for a chain [rad^2/s^2]."""
     for k in range(len(quotient)):
         bending, slope, displacement = weights[0, k], weights[1, k], weights[2, k]
@@ -83,6 +83,10 @@ def _quotients(weights, mass, stiffness, force, quotient):
         for i in range(len(mass)):
             stored += stiffness[i] * bending[i] - force[i] * slope[i]
             moving += mass[i] * displacement[i]
+        for i in range(more.shape[1]):
+            stored += more[GROUND, i] * displacement[i] - more[SHEAR_WORK, i] * slope[i]
+            stored += weights[4, k, i] - more[SHEAR, i] * weights[3, k, i]
+            moving += more[ROTARY_INERTIA, i] * slope[i]
         quotient[k] = stored / moving
 
 
@@ -122,12 +126,26 @@ def _take_row(length, mass, stiffness, force, chain):
 
 
 @compiled
+def _take_more(shear, rotary, ground, N, own):
+    """Set what segments have besides; tell whether all is finite, and in its range."""
+    valid, n = 0, own.shape[1]
+    for k in range(n):
+        s, turn = shear[k], shear[k] * N[k]
+        own[SHEAR, k], own[SHEAR_TURN, k], own[SHEAR_WORK, k] = s, turn, turn * N[k]
+        own[ROTARY_INERTIA, k], own[GROUND, k] = rotary[k], ground[k]
+        valid += 1 if s >= 0.0 and s < np.inf and turn > -1.0 else 0
+        valid += 1 if rotary[k] >= 0.0 and rotary[k] < np.inf else 0
+        valid += 1 if ground[k] >= 0.0 and ground[k] < np.inf else 0
+    return valid == 3 * n
+
+
+@compiled
 def solve_rows(given, first, chain, task, warmth, table, lanes, search, found):
     """Solve chains from row `first` on; return (row, columns) if one needs a larger table.
 
     Each starts from the roots of its neighbour, the row solved before.
     """
-    length, mass, stiffness, force = given
+    length, mass, stiffness, force, shear, rotary, ground = given
     neighbour, current, quotient = warmth.neighbour, warmth.omega2, warmth.quotient
     for row in range(first, len(mass)):
         h, m, K, N = length[row if len(length) > 1 else 0], mass[row], stiffness[row], force[row]
@@ -135,11 +153,15 @@ def solve_rows(given, first, chain, task, warmth, table, lanes, search, found):
             found.reason[row] = INVALID
             continue
         _take_row(h, m, K, N, chain)
-        unit = make_dimensionless(chain)[0]
+        s, inertia = shear[row if len(shear) > 1 else 0], rotary[row if len(rotary) > 1 else 0]
+        if not _take_more(s, inertia, ground[row if len(ground) > 1 else 0], N, chain.more):
+            found.reason[row] = INVALID
+            continue
         if warmth.weights.shape[1]:
-            _quotients(warmth.weights, m, K, N, quotient[0])
-            if neighbour[0] >= 0:
-                _guess(found.omega2[neighbour[0]], quotient[0], quotient[1], unit, current)
+            _quotients(warmth.weights, m, K, N, chain.more, quotient[0])
+        unit = make_dimensionless(chain)[0]
+        if warmth.weights.shape[1] and neighbour[0] >= 0:
+            _guess(found.omega2[neighbour[0]], quotient[0], quotient[1], unit, current)
         roots = _roots_of(row, current, warmth.slope, found)
         columns = _solve_row(row, chain, task, neighbour, roots, table, lanes, search, found)
         if columns:

@@ -1,4 +1,4 @@
-"""The search for consecutive roots of one chain: ask, evaluate, certify.
+"""The search for consecutive roots of one chain: ask, evaluate, certify; and one pass through it.
 
 All samples of a chain are kept, and serve all roots. Eigenvalue k of those wanted has index
 `below + k + 1` among all: its bracket lies between the highest sample that counts less and the
@@ -24,7 +24,6 @@ from antinode.riccati.reasons import (
 from . import laws
 from .certificate import certify, settle
 from .compiling import compiled
-from .passing import pass_chain
 from .prediction import keep_slopes, predict
 from .workspace import (
     AT,
@@ -40,6 +39,7 @@ from .workspace import (
     SECOND,
     SHIFT,
     VALUE,
+    A,
 )
 
 _MOST_PASSES = 100
@@ -48,6 +48,8 @@ _NEXT_TO = 1e-3  # relative distance from a first guess of a second sample, wher
 _FAR = 0.05  # relative likely error of a root up to which a second sample helps
 _STUCK = 5  # turns
 _BEYOND = 1.2  # how far beyond what is asked for the table reaches
+_RESCALE = 128  # pieces after which the lanes are scaled
+_SMALL = 1e-60  # of what is carried, or 1 over it: what lies between is not scaled
 
 
 @compiled
@@ -286,3 +288,78 @@ def _schedule(search):
             asked[total], owner[total] = wanted[k, FIRST] + wanted[k, BESIDE], k
             total += 1
     return total
+
+
+@compiled
+def _rescale(state):
+    """Take a power of two out of a lane that grows large or small."""
+    for lane in range(LANES):
+        size = 0.0
+        for row in range(CARRIED):
+            size = max(size, abs(state[LANES * row + lane]))
+        if _SMALL < size < 1.0 / _SMALL:
+            continue
+        power = math.frexp(size)[1]
+        for row in range(CARRIED):
+            state[LANES * row + lane] = math.ldexp(state[LANES * row + lane], -power)
+        state[POWER + lane] += power
+
+
+@compiled
+def _stretch(law, table, lanes, first, last):
+    """Carry the lanes from one point to the next; behind a held node signs are compared."""
+    state, sign, held = lanes.state, lanes.sign, False
+    if first == last:
+        return
+    for lane in range(LANES):
+        held = held or sign[lane] != 0.0
+    if held:
+        laws.advance(law, table, state, first, first + 1)
+        for lane in range(LANES):
+            state[COUNT + lane] += 1.0 if sign[lane] * state[A + lane] < 0.0 else 0.0
+            sign[lane] = 0.0
+        first += 1
+    while last - first > _RESCALE:
+        laws.advance(law, table, state, first, first + _RESCALE)
+        _rescale(state)
+        first += _RESCALE
+    laws.advance(law, table, state, first, last)
+    laws.to_chain_units(law, table, last - 1, state)
+
+
+@compiled
+def pass_chain(chain, table, lanes):
+    """Pass a chain from left to right."""
+    starts, marks = chain.starts, chain.marks
+    laws.start(chain, lanes)
+    first, n = 0, len(chain.length)
+    for node in range(n if len(chain.points) == 0 else 0, n + 1):
+        if marks[node] < 0 and node < n:
+            continue
+        _stretch(chain.law, table, lanes, first, starts[node])
+        first = starts[node]
+        if marks[node] >= 0:
+            laws.pass_point(chain.law, chain.points[marks[node]], lanes)
+            _rescale(lanes.state)
+    _rescale(lanes.state)
+    laws.finish(chain, lanes)
+
+
+@compiled
+def evaluate(chain, omega2, table, lanes, count, value):
+    """Evaluate a chain at any number of omega^2."""
+    for first in range(0, len(omega2), LANES):
+        for lane in range(LANES):
+            lanes.state[OMEGA2 + lane] = omega2[min(first + lane, len(omega2) - 1)]
+        pass_chain(chain, table, lanes)
+        for lane in range(min(LANES, len(omega2) - first)):
+            count[first + lane] = int(lanes.state[COUNT + lane])
+            value[first + lane] = lanes.value[lane]
+
+
+@compiled
+def repeat(chain, table, lanes, last, times):
+    """Pass the pieces of a chain a number of times: to be timed."""
+    for _ in range(times):
+        laws.start(chain, lanes)
+        laws.advance(chain.law, table, lanes.state, 0, last)

@@ -17,7 +17,7 @@ import math
 import numpy as np
 
 from .compiling import compiled
-from .workspace import LANES
+from .workspace import GROUND, LANES, ROTARY_INERTIA, SHEAR, SHEAR_TURN, SHEAR_WORK
 
 TERMS = 16
 """Most terms of the series: twice what the longest segment needs."""
@@ -29,14 +29,16 @@ SCRATCH = 27
 
 
 @compiled
-def _terms(h, EI, N, inertia, scale):
+def _terms(h, own, scale):
     """Return how many terms make the truncation of every series smaller than rounding."""
     most = 0.0
     for i in range(len(h)):
+        EI, alpha = own.stiffness[i], own.coupling[i]
         for lane in range(LANES):
-            x = h[i] / scale[lane]
-            b = abs(N[i, lane]) / EI[i] * x * x / 2
-            c = abs(inertia[i, lane]) / EI[i] * x * x * x * x
+            x, s = h[i] / scale[lane], own.shear[i, lane]
+            beta, mu = own.turning[i, lane], own.inertia[i, lane]
+            b = (abs(beta) / EI + abs(s * mu)) * x * x / 2
+            c = abs(mu * (alpha * alpha - s * beta)) / EI * x * x * x * x
             most = max(most, b + math.sqrt(b * b + c))
     terms, size = 1, 1.0
     while size * (terms + 1) > _BELOW_ROUNDING and terms < TERMS:
@@ -46,28 +48,37 @@ def _terms(h, EI, N, inertia, scale):
 
 
 @compiled
-def scaled_chain(mass, stiffness, force, omega2, scale, EI0, EI, N, inertia):
-    """Set EI, N and m omega^2 of every segment in the units of the lanes."""
+def scaled_chain(mass, stiffness, force, more, omega2, scale, EI0, own):
+    """Set EI, alpha, s, beta and mu of every segment in the units of the lanes."""
     for i in range(len(mass)):
-        EI[i] = stiffness[i] / EI0
+        own.stiffness[i], own.coupling[i] = stiffness[i] / EI0, 1.0
         for lane in range(LANES):
             square = scale[lane] * scale[lane]
-            N[i, lane] = force[i] * (square / EI0)
-            inertia[i, lane] = mass[i] * (omega2[lane] * square * square / EI0)
+            own.shear[i, lane], own.turning[i, lane] = 0.0, force[i] * (square / EI0)
+            own.inertia[i, lane] = mass[i] * (omega2[lane] * square * square / EI0)
+    for i in range(more.shape[1]):
+        own.coupling[i] = 1.0 + more[SHEAR_TURN, i]
+        for lane in range(LANES):
+            square = scale[lane] * scale[lane]
+            turning = more[SHEAR_WORK, i] + more[ROTARY_INERTIA, i] * omega2[lane]
+            own.shear[i, lane] = more[SHEAR, i] * (EI0 / square)
+            own.turning[i, lane] += turning * (square / EI0)
+            own.inertia[i, lane] -= more[GROUND, i] * (square * square / EI0)
 
 
 @compiled
-def _transfer(h, EI, N, inertia, terms, q, sums, U):
+def _transfer(h, EI, alpha, s, beta, mu, terms, q, sums, U):
     """Set the ten different entries of the transfer matrix (equation 62) of one segment.
 
     In this order: 00 = 33, 01 = 23, 02 = 13, 03, 10 = 32, 11 = 22, 12, 20 = 31, 21, 30.
     """
     for lane in range(LANES):
         square = h[lane] * h[lane]
-        q[0, lane], q[1, lane] = 1.0, -N[lane] / EI * square
+        kappa = alpha * alpha - s[lane] * beta[lane]
+        q[0, lane], q[1, lane] = 1.0, -(beta[lane] / EI + s[lane] * mu[lane]) * square
         for j in range(4):
             sums[j, lane] = _SERIES[j, 0] + q[1, lane] * _SERIES[j, 1]
-        q[2, lane], q[3, lane] = inertia[lane] / EI * square * square, q[1, lane]
+        q[2, lane], q[3, lane] = mu[lane] / EI * kappa * square * square, q[1, lane]
     for k in range(2, terms):
         s0, s1, s2, s3 = _SERIES[0, k], _SERIES[1, k], _SERIES[2, k], _SERIES[3, k]
         for lane in range(LANES):
@@ -78,30 +89,34 @@ def _transfer(h, EI, N, inertia, terms, q, sums, U):
             sums[2, lane] += s2 * following
             sums[3, lane] += s3 * following
     for lane in range(LANES):
-        x, mw = h[lane], inertia[lane]
+        x, mw, flexible = h[lane], mu[lane], s[lane]
+        kappa, turn = alpha * alpha - flexible * beta[lane], beta[lane] / EI
         g, g1 = x * x * x * sums[0, lane], x * x * sums[1, lane]
         g2, g3 = x * sums[2, lane], sums[3, lane]
-        U[0, lane] = g3 + N[lane] / EI * g1
-        U[1, lane] = g2
-        U[2, lane] = g1 / EI
-        U[3, lane] = g / EI
-        U[4, lane] = mw / EI * g
-        U[5, lane] = g3
-        U[6, lane] = g2 / EI
-        U[7, lane] = mw * g1
-        U[8, lane] = mw * g - N[lane] * g2
-        U[9, lane] = mw * (g2 + N[lane] / EI * g)
+        U[0, lane] = g3 + turn * g1
+        U[1, lane] = alpha * g2
+        U[2, lane] = alpha * g1 / EI
+        U[3, lane] = kappa * g / EI - flexible * g2
+        U[4, lane] = alpha * mw / EI * g
+        U[5, lane] = g3 + flexible * mw * g1
+        U[6, lane] = (g2 + flexible * mw * g) / EI
+        U[7, lane] = alpha * mw * g1
+        U[8, lane] = kappa * mw * g - beta[lane] * g2
+        U[9, lane] = mw * (g2 + turn * g)
 
 
 @compiled
-def transfers(h, EI, N, inertia, scale, scratch, U):
+def transfers(h, own, scale, scratch, U):
     """Set the transfer matrices of all segments."""
     q, sums, x = scratch[0:4], scratch[4:8], scratch[8]
-    terms = _terms(h, EI, N, inertia, scale)
+    terms = _terms(h, own, scale)
     for i in range(len(h)):
         for lane in range(LANES):
             x[lane] = h[i] / scale[lane]
-        _transfer(x, EI[i], N[i], inertia[i], terms, q, sums, U[i])
+        _transfer(
+            *(x, own.stiffness[i], own.coupling[i], own.shear[i]),
+            *(own.turning[i], own.inertia[i], terms, q, sums, U[i]),
+        )
 
 
 @compiled
@@ -250,14 +265,14 @@ def carry(left, right, back_left, back_right, node, state, units, z):
 
 
 @compiled
-def squares(h, EI, N, inertia, scale, units, states, shares, weights, scratch, total):
+def squares(h, force, own, scale, units, states, shares, weights, scratch, total):
     """Add up the integrals of Y^2, psi^2, M^2, V^2 and Q^2 over every segment, by Gauss points.
 
     total is indexed [which, segment, mode], in SI.
     """
     q, sums, x = scratch[0:4], scratch[4:8], scratch[8]
     U, z, there = scratch[9:19], scratch[19:23], scratch[23:27]
-    terms = _terms(h, EI, N, inertia, scale)
+    terms = _terms(h, own, scale)
     for i in range(len(h)):
         for lane in range(states.shape[1]):
             for row in range(4):
@@ -265,14 +280,18 @@ def squares(h, EI, N, inertia, scale, units, states, shares, weights, scratch, t
         for p in range(len(shares)):
             for lane in range(LANES):
                 x[lane] = h[i] * shares[p] / scale[lane]
-            _transfer(x, EI[i], N[i], inertia[i], terms, q, sums, U)
+            _transfer(
+                *(x, own.stiffness[i], own.coupling[i], own.shear[i]),
+                *(own.turning[i], own.inertia[i], terms, q, sums, U),
+            )
             _step(U, 1.0, z, 0, there)
             weight = weights[p] * h[i]
             for lane in range(states.shape[1]):
-                slope, unit = there[1, lane], units[lane]
-                shear = (there[3, lane] - N[i, lane] * slope) * unit[3]
+                unit = units[lane]
+                psi, Q = there[1, lane] * unit[1], there[3, lane] * unit[3]
+                shear = Q - force[i] * psi
                 total[0, i, lane] += weight * (there[0, lane] * unit[0]) ** 2
-                total[1, i, lane] += weight * (slope * unit[1]) ** 2
+                total[1, i, lane] += weight * psi**2
                 total[2, i, lane] += weight * (there[2, lane] * unit[2]) ** 2
                 total[3, i, lane] += weight * shear**2
-                total[4, i, lane] += weight * (there[3, lane] * unit[3]) ** 2
+                total[4, i, lane] += weight * Q**2

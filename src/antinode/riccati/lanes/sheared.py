@@ -52,30 +52,48 @@ from .workspace import (
     F,
 )
 
-STEP = 0.25
-"""Wave number times length of a piece, at most: seven terms reach rounding."""
+STEP = 0.38
+"""Wave number times length of a piece, at most: eight terms reach rounding."""
 
-_TERMS = 7
+_TERMS = 8
 _G0, _G1, _G2, _G3 = (
     tuple(1.0 / math.factorial(2 * k + j) for k in range(_TERMS)) for j in (4, 3, 2, 1)
 )
 
 
 @compiled
+def _all_short(h, m, EI, N, more, omega2):
+    """Tell whether wave number times length is below the limit in every segment."""
+    wide_vectors()
+    longer = 0
+    for k in range(len(h)):
+        square, (b, c) = STEP * STEP / (h[k] * h[k]), _bounds(m, EI, N, more, omega2, k)
+        longer += 1 if c > square * (square - b) else 0
+    return longer == 0
+
+
+@compiled
+def _bounds(m, EI, N, more, omega2, k):
+    """Return bounds on the coefficients of the characteristic equation of a segment."""
+    s, alpha, rotary = more[SHEAR, k], 1.0 + more[SHEAR_TURN, k], more[ROTARY_INERTIA, k] * omega2
+    inertia, force = m[k] * omega2 + more[GROUND, k], N[k] + more[SHEAR_WORK, k]
+    kappa = abs(alpha * alpha - s * force) + s * rotary
+    f = 1.0 / EI[k]
+    return s * inertia + (abs(force) + rotary) * f, inertia * kappa * f
+
+
+@compiled
 def count_pieces(h, m, EI, N, more, omega2, starts):
     """Set the first piece of every segment; return how many pieces reach up to abs(omega2)."""
+    if _all_short(h, m, EI, N, more, omega2):
+        for k in range(len(h) + 1):
+            starts[k] = k
+        return len(h)
     total = 0
     for k in range(len(h)):
         starts[k] = total
-        s, rotary, alpha = (
-            more[SHEAR, k],
-            more[ROTARY_INERTIA, k] * omega2,
-            1.0 + more[SHEAR_TURN, k],
-        )
-        inertia, force = m[k] * omega2 + more[GROUND, k], N[k] + more[SHEAR_WORK, k]
-        kappa = abs(alpha * alpha - s * force) + s * rotary
-        b = (s * inertia + (abs(force) + rotary) / EI[k]) / 2
-        wave = math.sqrt(b + math.sqrt(b * b + inertia * kappa / EI[k])) * h[k] / STEP
+        b, c = _bounds(m, EI, N, more, omega2, k)
+        wave = math.sqrt(b / 2.0 + math.sqrt(b * b / 4.0 + c)) * h[k] / STEP
         if not wave < MOST_PIECES:
             return -1
         total += max(1, math.ceil(wave))
@@ -86,19 +104,17 @@ def count_pieces(h, m, EI, N, more, omega2, starts):
 @compiled
 def fill_table(h, m, EI, N, more, starts, marks, table):
     """Fill the table: one column a piece."""
-    for k in range(len(h)):
-        pieces = starts[k + 1] - starts[k]
-        size, f = h[k] / pieces, 1.0 / EI[k]
-        square = size * size
-        s, alpha, force = more[SHEAR, k], 1.0 + more[SHEAR_TURN, k], N[k] + more[SHEAR_WORK, k]
-        rotary = more[ROTARY_INERTIA, k]
-        for i in range(starts[k], starts[k + 1]):
-            table[LENGTH, i], table[FLEXIBILITY, i], table[INERTIA, i] = size, f, 2.0 * m[k]
-            table[FOUNDATION, i] = 2.0 * more[GROUND, k] * (square * square * f)
-            table[TURN_FORCE, i], table[TURN_INERTIA, i] = force * square * f, rotary * square * f
-            table[HALF_SHEAR, i], table[COUPLING, i] = s / (2.0 * square * f), alpha
-            table[KAPPA, i], table[KAPPA_INERTIA, i] = alpha * alpha - s * force, s * rotary
-    fill_ratios(table, starts[len(h)])
+    wide_vectors()
+    last = starts[len(h)]
+    if last == len(h):
+        for k in range(last):
+            _fill_piece(h[k], m, EI, N, more, k, k, table)
+    else:
+        for k in range(len(h)):
+            size = h[k] / (starts[k + 1] - starts[k])
+            for i in range(starts[k], starts[k + 1]):
+                _fill_piece(size, m, EI, N, more, k, i, table)
+    fill_ratios(table, last)
     for k in range(len(h)):
         if marks[k] >= 0:
             fill_ratio(table, starts[k])
@@ -106,13 +122,26 @@ def fill_table(h, m, EI, N, more, starts, marks, table):
 
 
 @compiled
+def _fill_piece(size, m, EI, N, more, k, i, table):
+    """Fill what depends on one piece alone: piece i, of segment k."""
+    f, square = 1.0 / EI[k], size * size
+    s, alpha, force = more[SHEAR, k], 1.0 + more[SHEAR_TURN, k], N[k] + more[SHEAR_WORK, k]
+    rotary = more[ROTARY_INERTIA, k]
+    table[LENGTH, i], table[FLEXIBILITY, i], table[INERTIA, i] = size, f, 2.0 * m[k]
+    table[FOUNDATION, i] = 2.0 * more[GROUND, k] * (square * square * f)
+    table[TURN_FORCE, i], table[TURN_INERTIA, i] = force * square * f, rotary * square * f
+    table[HALF_SHEAR, i], table[COUPLING, i] = s / (2.0 * square * f), alpha
+    table[KAPPA, i], table[KAPPA_INERTIA, i] = alpha * alpha - s * force, s * rotary
+
+
+@compiled
 def advance(table, state, first, last):
     """Carry the lanes through pieces: equation 74 in minors, and the count of every joint."""
     wide_vectors()
-    t0, t1, t2, t3, t4, t5, t6 = _G0
-    u0, u1, u2, u3, u4, u5, u6 = _G1
-    v0, v1, v2, v3, v4, v5, v6 = _G2
-    w0, w1, w2, w3, w4, w5, w6 = _G3
+    t0, t1, t2, t3, t4, t5, t6, t7 = _G0
+    u0, u1, u2, u3, u4, u5, u6, u7 = _G1
+    v0, v1, v2, v3, v4, v5, v6, v7 = _G2
+    w0, w1, w2, w3, w4, w5, w6, w7 = _G3
     for i in range(first, last):
         inertia, ground = table[INERTIA, i], table[FOUNDATION, i]
         n, turn = table[TURN_FORCE, i], table[TURN_INERTIA, i]
@@ -131,10 +160,11 @@ def advance(table, state, first, last):
             r4 = p * r3 + q * r2
             r5 = p * r4 + q * r3
             r6 = p * r5 + q * r4
-            Z = t0 + t1 * p + t2 * r2 + t3 * r3 + t4 * r4 + t5 * r5 + t6 * r6
-            S = u0 + u1 * p + u2 * r2 + u3 * r3 + u4 * r4 + u5 * r5 + u6 * r6
-            C = v0 + v1 * p + v2 * r2 + v3 * r3 + v4 * r4 + v5 * r5 + v6 * r6
-            G3 = w0 + w1 * p + w2 * r2 + w3 * r3 + w4 * r4 + w5 * r5 + w6 * r6
+            r7 = p * r6 + q * r5
+            Z = t0 + t1 * p + t2 * r2 + t3 * r3 + t4 * r4 + t5 * r5 + t6 * r6 + t7 * r7
+            S = u0 + u1 * p + u2 * r2 + u3 * r3 + u4 * r4 + u5 * r5 + u6 * r6 + u7 * r7
+            C = v0 + v1 * p + v2 * r2 + v3 * r3 + v4 * r4 + v5 * r5 + v6 * r6 + v7 * r7
+            G3 = w0 + w1 * p + w2 * r2 + w3 * r3 + w4 * r4 + w5 * r5 + w6 * r6 + w7 * r7
             Z0, S0 = C + b_ * Z, G3 + b_ * S
             C0 = 1.0 - b_ * Z0 - c * Z
             four = 2.0 * mu

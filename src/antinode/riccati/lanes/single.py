@@ -13,7 +13,7 @@ from antinode.riccati.reasons import TABLE_TOO_SMALL
 from .laws import FORMS
 from .library import library
 from .scratch import scratch
-from .workspace import POINT, Task, new_chain, new_roots
+from .workspace import NO_MORE, POINT, Task, new_chain, new_roots
 
 
 class Found(NamedTuple):
@@ -26,6 +26,14 @@ class Found(NamedTuple):
     counts: Integers
     rounding: Array
     evaluations: int
+
+
+def more_columns(chain: Chain) -> Array:
+    """Return what segments have besides as the rows of `workspace.Chain.more`."""
+    if chain.is_plain:
+        return NO_MORE
+    none = np.zeros(len(chain.length))
+    return np.stack([chain.columns.get(name, none) for name in chain.law.more])
 
 
 class SingleChain:
@@ -43,8 +51,7 @@ class SingleChain:
         ends = form.ends[chain.left], form.ends[chain.right]
         number = form.number if chain.is_plain else form.with_more
         own = new_chain(number, *ends, n, not chain.is_plain)
-        for k, column in enumerate(() if chain.is_plain else chain.law.more):
-            own.more[k] = chain.columns.get(column, 0.0)
+        own.more[:] = more_columns(chain)
         own.length[:], own.mass[:], own.stiffness[:] = chain.length, chain.mass, chain.stiffness
         if chain.law.has_axial_force:
             own.force[:] = chain.axial_force

@@ -8,13 +8,16 @@ from antinode.riccati import shapes
 from antinode.riccati.arrays import Array, Integers
 from antinode.riccati.chain import Chain, largest_wave_number, point_steps, state_units
 from antinode.riccati.laws import Squares
+from antinode.riccati.points import Point
 from antinode.riccati.segment import LONGEST_STEP
 
 from . import shapes as lane_shapes
 from .laws import FORMS
 from .library import library
-from .workspace import LANES
+from .single import more_columns
+from .workspace import LANES, new_scaled
 
+_HEAVY = 1e3  # m d^2 over that of the beam
 _MOST_NODES = 20_000  # whose frames are kept
 
 
@@ -34,12 +37,18 @@ def mode_states(
 
 
 def _is_special(chain: Chain, multiplicity: Integers) -> bool:
-    held = any(point.holds for point in chain.points)
+    held = any(point.holds or _is_heavy(point, chain) for point in chain.points)
     return not _is_known(chain) or held or chain.follows or bool(np.any(multiplicity > 1))
 
 
+def _is_heavy(point: Point, chain: Chain) -> bool:
+    """Tell whether the rotary inertia of a mass off its node may drown in J + m d^2."""
+    total, length = float(chain.mass @ chain.length), float(np.sum(chain.length))
+    return point.mass * point.offset**2 > _HEAVY * total * length**2
+
+
 def _is_known(chain: Chain) -> bool:
-    return FORMS[chain.law].shapes and chain.is_plain
+    return FORMS[chain.law].shapes
 
 
 class _LaneChain:
@@ -50,21 +59,19 @@ class _LaneChain:
         lane = np.minimum(np.arange(LANES), number - 1)
         self.scale = chain.scale_length(omega2)[lane]
         arrays = chain.length, chain.mass, chain.stiffness, chain.axial_force
-        self.length, mass, stiffness, force = (np.array(values, order="C") for values in arrays)
+        self.length, mass, stiffness, self.force = (np.array(v, order="C") for v in arrays)
         self.units = state_units(chain, omega2)[lane]
-        self.EI, self.N, self.inertia = np.empty(n), np.empty((n, LANES)), np.empty((n, LANES))
+        self.columns = new_scaled(n)
         library().call(
             "scaled_chain",
-            *(mass, stiffness, force, omega2[lane], self.scale),
-            *(chain.reference[0], self.EI, self.N, self.inertia),
+            *(mass, stiffness, self.force, more_columns(chain), omega2[lane], self.scale),
+            *(chain.reference[0], self.columns),
         )
         self.scratch = np.zeros((lane_shapes.SCRATCH, LANES))
 
     def transfers(self) -> Array:
         U = np.empty((len(self.length), 10, LANES))
-        library().call(
-            "transfers", self.length, self.EI, self.N, self.inertia, self.scale, self.scratch, U
-        )
+        library().call("transfers", self.length, self.columns, self.scale, self.scratch, U)
         return U
 
 
@@ -113,7 +120,7 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies
         total = np.zeros((len(Squares._fields), *these[:-1, :, 0].shape))
         library().call(
             "squares",
-            *(own.length, own.EI, own.N, own.inertia, own.scale, own.units),
+            *(own.length, own.force, own.columns, own.scale, own.units),
             *(these, share, weight, own.scratch, total),
         )
         parts.append(total)

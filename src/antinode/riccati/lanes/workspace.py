@@ -46,8 +46,9 @@ CARRIED = 5
 STATE = 8 * LANES
 
 # Columns of the points, dimensionless.
-MASS, FIRST_MOMENT, ROTARY, SPRING, TURNING, HOLDS_Y, HOLDS_THETA, COMPLIANCE = range(8)
-POINT = 8
+MASS, FIRST_MOMENT, ROTARY, SPRING, TURNING, HOLDS_Y, HOLDS_THETA, COMPLIANCE, CENTRAL = range(9)
+"""Among them m d, the inertia about the node, and that about the mass's own centre."""
+POINT = 9
 
 # Columns of the samples of a search.
 AT, BELOW, VALUE, SHIFT, CARRIED_FROM = range(5)
@@ -71,7 +72,7 @@ MOST_LEVELS = 7
 MOST_STEPS = 4096
 """Coarsest ones of a beam, and one for every interval."""
 
-NO_POINTS = np.empty((0, POINT))
+NO_POINTS, NO_MORE = np.empty((0, POINT)), np.empty((MORE, 0))
 
 
 class Chain(NamedTuple):
@@ -91,9 +92,21 @@ class Chain(NamedTuple):
     marks: Integers
     """Which point stands at every node, -1 for none, shape (n + 1,)."""
     points: Array
-    """Shape (points, 8)."""
+    """Shape (points, 9)."""
     more: Array
     """What segments have besides, shape (5, n); (5, 0) where they have nothing."""
+
+
+class Scaled(NamedTuple):
+    """Columns of a chain in the units of eight modes."""
+
+    stiffness: Array
+    """EI, as is alpha shape (n,)."""
+    coupling: Array
+    shear: Array
+    """s, as are beta and mu shape (n, lanes)."""
+    turning: Array
+    inertia: Array
 
 
 class Lanes(NamedTuple):
@@ -217,6 +230,11 @@ class Nodes(NamedTuple):
     at: Integers
     points: Array
     scaled: Array
+
+
+def new_scaled(segments: int) -> Scaled:
+    """Return room for a chain in the units of modes."""
+    return Scaled(*np.empty((2, segments)), *np.empty((3, segments, LANES)))
 
 
 def new_lanes() -> Lanes:
