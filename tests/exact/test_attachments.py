@@ -184,3 +184,17 @@ def arm_matrices(offset, gravity, n=60):
     M[tip, tip] += [[m_p, m_p * offset], [m_p * offset, m_p * offset**2 + J]]
     K[-1, -1] += F * offset
     return K[2:, 2:], M[2:, 2:]
+
+
+@pytest.mark.parametrize("backend", ["numpy", "numba"])
+@pytest.mark.parametrize("turned", [False, True])
+def test_rotary_inertia_of_a_heavy_mass_off_its_node(backend, turned):
+    """J = 1e-3 beside m d^2 = 9e7: f2 = 1.58856627550 Hz in 40 digits, a turn about the centre."""
+    beam = Beam.from_stations([0.0, 1.0], 1.0, 1.0, ends=Ends("clamped", "free"))
+    beam = beam.with_attachments(PointMass(1.0, 1e9, rotary_inertia=1e-3, offset=0.3))
+    beam = beam.reversed() if turned else beam
+    result = solve_modes(beam, 4, backend=backend)
+    second = result.modes[1]
+    assert abs(second.frequency_hz - 1.58856627550) <= second.error_hz + 5e-12
+    assert second.error_hz < 1e-9
+    assert second.residual < 1e-9

@@ -8,7 +8,15 @@ the first half).
 import numpy as np
 import pytest
 
-from antinode import Beam, Ends, natural_frequencies, solve_modes
+from antinode import (
+    Beam,
+    BeamBatch,
+    Ends,
+    InputError,
+    natural_frequencies,
+    solve_many,
+    solve_modes,
+)
 from antinode.modes.buckling import buckling
 
 ROTARY, SHEAR = 0.0025, 0.0075
@@ -146,3 +154,43 @@ def test_engesser_is_haringx_with_a_stiffness_smaller_by_the_force():
     other = timoshenko("clamped", "sliding", 4.0, "haringx", shear_stiffness=1 / SHEAR - 4.0)
     a, b = (natural_frequencies(item, 6).omega2 for item in (one, other))
     np.testing.assert_allclose(a, b, rtol=1e-12)
+
+
+@pytest.mark.parametrize("form", ["haringx", "engesser"])
+def test_batch_solves_as_single_beams_do(form):
+    rng, n, beams = np.random.default_rng(16), 12, 70
+    m, EI, kGA = rng.uniform(0.5, 2.0, (3, beams, n)) * np.array([1.0, 1.0, 100.0])[:, None, None]
+    N, rotary = rng.uniform(-5.0, 5.0, (beams, n)), rng.uniform(0.0, 0.003, n)
+    added, bed = rng.uniform(0.0, 1.0, (beams, n)), rng.uniform(0.0, 300.0, n)
+    more = {
+        "shear_stiffness": kGA,
+        "rotary_inertia_per_length": rotary,
+        "foundation_stiffness": bed,
+        "added_mass_per_length": added,
+    }
+    ends = Ends("free", "clamped")
+    batch = BeamBatch(np.full(n, 1 / n), m, EI, N, ends, shear_form=form, **more)
+    found = solve_many(batch)
+    assert not found.reason.any()
+    for row in (0, 33, 69):
+        own = {name: values[row] if values.ndim > 1 else values for name, values in more.items()}
+        one = Beam.from_stations(
+            np.linspace(0, 1, n + 1), m[row], EI[row], axial_force=N[row], ends=ends,
+            shear_form=form, **own,
+        )  # fmt: skip
+        exact = solve_modes(one, 6, backend="numpy", families="bending")
+        np.testing.assert_allclose(np.sqrt(found.omega2[row]), elastic(exact), rtol=1e-10)
+
+
+def test_batch_refuses_row_by_row():
+    more = {
+        "shear_stiffness": np.array([[100.0], [2.0], [-1.0], [100.0]]),
+        "rotary_inertia_per_length": np.array([[0.0], [0.0], [0.0], [-1.0]]),
+    }
+    wrong = {"engesser": [False, True, True, True], "haringx": [False, False, True, True]}
+    N, ends = np.full((4, 1), 3.0), Ends("clamped")
+    for form, bad in wrong.items():
+        batch = BeamBatch([1.0], [1.0], [1.0], N, ends, shear_form=form, **more)
+        assert np.array_equal(np.isnan(solve_many(batch).omega2[:, 0]), bad)
+    with pytest.raises(InputError, match="of another family"):
+        BeamBatch([1.0], [1.0], family="longitudinal", axial_stiffness=[1.0], shear_stiffness=[1.0])
