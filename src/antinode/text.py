@@ -46,7 +46,39 @@ def listed(names: Iterable[str]) -> str:
     return f"{', '.join(most)} and {last}" if most else last
 
 
+_CALLED = {
+    "mass_per_length": (
+        "m",
+        "mass",
+        "mu",
+        "rhoA",
+        "linear_density",
+        "weight",
+        "mass_per_unit_length",
+    ),
+    "mass": ("m", "weight"),
+    "bending_stiffness": ("EI", "stiffness", "flexural_rigidity"),
+    "axial_stiffness": ("EA", "AE"),
+    "torsional_stiffness": ("GJ", "GK"),
+    "shear_stiffness": ("GA", "kGA", "GAs"),
+    "translational": ("k", "stiffness", "ky"),
+    "rotary_inertia": ("inertia", "J", "I"),
+    "x": ("position", "station", "s", "z", "y", "location", "distance"),
+    "tolerance": ("tol", "rtol", "accuracy"),
+    "left": ("base", "start", "root", "bottom"),
+    "right": ("tip", "end", "top"),
+    "gravity": ("g",),
+    "speed": ("V", "velocity"),
+    "cavitation_number": ("sigma",),
+}
+"""What others call the keys and columns."""
+_OF_TENSION = "N", "tension", "T", "P", "axial_load", "preload"
+
+
 def nearest(name: str, allowed: Sequence[str]) -> str:
-    """Suggest the allowed name that is nearest to an unknown one, or list them all."""
-    close = difflib.get_close_matches(name[:MOST_CHARACTERS], allowed, n=1)
+    """Suggest the allowed name that is meant by an unknown one or is nearest, or list them all."""
+    if "axial_force" in allowed and name in _OF_TENSION:
+        return "did you mean axial_force, in which compression is positive and tension negative?"
+    meant = (key for key, others in _CALLED.items() if key in allowed and name in others)
+    close = [*meant, *difflib.get_close_matches(name[:MOST_CHARACTERS], allowed, n=1)]
     return f"did you mean {close[0]}?" if close else f"allowed are {', '.join(allowed)}"

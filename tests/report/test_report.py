@@ -14,6 +14,7 @@ from antinode.examples import write_example
 from antinode.report.blocks import Table, runs, table
 from antinode.report.command import make_report, run_report
 from antinode.report.html import to_html
+from antinode.report.inputs import beam_inputs, case_inputs
 from antinode.report.numbers import apart, number, percent, small
 from antinode.report.provenance import hash_of
 from antinode.study.sensitivity.influence import beam_influences, case_influences
@@ -228,3 +229,29 @@ def test_numbers():
     assert float(low) <= 3.24870857948
     assert float(high) >= 3.24870857962
     assert len(table("", ("a",), [("1",)]).rows) == 1
+
+
+def test_parts_stand_with_their_masses(folder, tmp_path):
+    """Of a vehicle and of a beam: a part of 40 kg/m over 0.5 m, one that tapers to nothing."""
+    part = "{name='tank', x=[1.0, 1.5], mass_per_length=[40, 40]}"
+    cone = "{name='cone', interpolation='linear', x=[2.0, 4.0], mass_per_length=[10, 0]}"
+    for file, name in ((folder / "starter" / "case.toml", "vehicle"),
+                        (folder / "tower" / "beam.toml", "beam")):  # fmt: skip
+        assign = [f"{name}.masses=[{part}, {cone}]"]
+        if name == "beam":
+            assign.append("beam.interpolation=linear")
+        loaded = (load_case if name == "vehicle" else load_beam)(file, assign)
+        source = case_inputs(loaded) if name == "vehicle" else beam_inputs(loaded, loaded.beam())
+        blocks = [b for s in source for b in s.blocks if isinstance(b, Table)]
+        rows = next(texts(b) for b in blocks if "Parts" in str(b.caption))
+        assert [row[2] for row in rows] == ["20", "10"]
+
+
+def test_a_study_says_in_brief_what_is_past_buckling(folder, tmp_path):
+    path = folder / "starter" / "pushed.toml"
+    path.write_text(
+        'case = "case.toml"\ninputs = [{ key = "thrust", values = [0, 6e5] }]\nsolve.modes = 1\n'
+    )
+    document, _ = make_report(path)
+    brief = " ".join("".join(r.text for r in line) for line in document.brief)
+    assert "0 failed, 1 past buckling" in brief

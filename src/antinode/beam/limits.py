@@ -55,8 +55,8 @@ def check_limits(beam: Beam) -> None:
     low, high = LENGTHS
     if not low <= beam.length <= high or np.max(np.abs(beam.x)) > high:
         raise InputError(
-            f"x runs from {beam.x[0]:g} to {beam.x[-1]:g} m; a beam may be {low:g} to {high:g} m "
-            "long: check the unit of x"
+            f"x runs from {beam.x[0]:.12g} to {beam.x[-1]:.12g} m; a beam may be {low:g} to "
+            f"{high:g} m long, and no further than that from x = 0: check the unit of x"
         )
     read = (table for family in FAMILIES.values() for table in (*family.tables, *family.more))
     for name in dict.fromkeys(read):

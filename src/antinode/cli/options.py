@@ -111,7 +111,7 @@ class Output:
         option(
             OUTPUT,
             "Write the result to a file: .csv (a table), .json, or .nc (NetCDF, with shapes); "
-            "modes also as .xlsx, .mat, .vtu, .uff or .bdf.",
+            "modes also as .xlsx, .mat, .vtu, .uff, .bdf or .inp.",
             "-o",
             "--output",
         ),
@@ -149,7 +149,7 @@ ToFormat = Annotated[
     option(
         OUTPUT,
         "Format of the output, where its ending does not say: toml, csv, xlsx, json, netcdf, mat, "
-        "nastran, uff, vtk.",
+        "nastran, calculix, uff, vtk.",
         "--to",
         show_default=False,
     ),

@@ -63,6 +63,10 @@ def _run(arguments: Sequence[str] | None) -> int:
     except (KeyboardInterrupt, BrokenPipeError) as error:
         _close_stdout()
         return _fail("interrupted", 130) if isinstance(error, KeyboardInterrupt) else 0
+    except OSError as error:
+        if debug:
+            raise
+        return _fail(f"{_what_failed(error)}; make room, or check the disk and the folder", 1)
     except MemoryError:
         return _fail("there is not enough memory; ask for fewer modes or a larger tolerance", 1)
     except Exception as error:
@@ -70,6 +74,12 @@ def _run(arguments: Sequence[str] | None) -> int:
             raise
         return _fail(f"{type(error).__name__}: {error}; {_BUG}", 1)
     return 0
+
+
+def _what_failed(error: OSError) -> str:
+    """Say what the system would not do, and with which file."""
+    name = f"{short(str(error.filename))}: " if error.filename else ""
+    return f"{name}a file could not be read or written ({error.strerror or error})"
 
 
 def _usage(error: CycloptsError) -> str:

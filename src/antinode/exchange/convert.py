@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import get_args
@@ -15,6 +16,7 @@ from .formats import INPUTS, OUTPUTS, Format, format_of
 from .inputs import Choices, Found, read_beam
 from .mesh.analyses import Analysis
 from .outputs import Modes, check_libraries, write_beam, write_modes
+from .units import SI
 
 _BEAMS = ("toml", "csv", "xlsx")
 _TABLES = ("csv", "xlsx")
@@ -62,10 +64,11 @@ def convert(request: Request) -> tuple[str, ...]:
     how_in = _named(request.from_format, "--from") or _sniffed(request.source)
     how_out = _named(request.to_format, "--to") or format_of(request.target, OUTPUTS)
     _check(request, how_in, how_out)
+    inert = tuple(_without_effect(request, how_in, how_out))
     if how_in == "uff":
-        return _convert_measurements(request, how_out)
+        return (*inert, *_convert_measurements(request, how_out))
     found = read_beam(request.source, how_in, request.choices)
-    notes = (*found.notes, *_left_out(found, how_out))
+    notes = (*inert, *found.notes, *_left_out(found, how_out))
     if how_out in _BEAMS:
         return (*notes, *write_beam(request.target, found.beam, how_out, found.hull))
     modes = _solved(found, request.modes)
@@ -79,6 +82,27 @@ def _left_out(found: Found, how_out: Format) -> tuple[str, ...]:
     if not names or how_out in _TABLES:
         return ()
     return (f"left out, since a beam has none: {', '.join(names)}",)
+
+
+def _without_effect(request: Request, how_in: Format, how_out: Format) -> Iterator[str]:
+    """Say which options are given that nothing here asks for."""
+    given, deck = request.choices, how_out in ("nastran", "calculix")
+    modal = how_out not in (*_BEAMS, *_ROWS) or (how_in != "uff" and how_out == "json")
+    told = (
+        ("--elements", given.elements and how_in != "nastran", "for NASTRAN models"),
+        ("--length", given.length and how_in != "sections", "for tables of fractions of a length"),
+        ("--plane", given.plane != 1 and how_in not in _PLANES, "for files with two planes"),
+        ("--analysis", request.analysis != "modes" and not deck, "for decks (.bdf, .inp)"),
+        ("--modes", request.modes and not modal, "for outputs with modes"),
+        ("--set", given.assignments and how_in == "uff", "for beams"),
+        ("--units", given.system is not SI and not (deck or how_in in _UNITLESS), _NO_UNITS),
+    )
+    return (f"{name} has no effect here: it is {why}" for name, inert, why in told if inert)
+
+
+_PLANES = ("nastran", "sections", "uff")
+_UNITLESS = ("nastran", "uff")
+_NO_UNITS = "for NASTRAN and CalculiX decks, and measurements; all other files are in SI, or say it"
 
 
 def _named(name: str, option: str) -> Format | None:

@@ -127,7 +127,7 @@ def _from_tables(
     with naming(where):
         beam = file.beam()
         check_limits(beam)
-    return Found(beam, file.solve, notes)
+    return Found(beam, file.solve, (*notes, *file.notes))
 
 
 def _from_toml(path: Path, choices: Choices) -> Found:
@@ -139,7 +139,7 @@ def _from_toml(path: Path, choices: Choices) -> Found:
         with naming(str(path)):
             return Found(case.beam(), case.solve, ())
     file = load_beam(path, assignments)
-    return Found(file.beam(), file.solve, ())
+    return Found(file.beam(), file.solve, file.notes)
 
 
 def _from_nastran(path: Path, choices: Choices) -> Found:

@@ -95,7 +95,7 @@ def tabulate(beam: Beam) -> Stations:
     """
     notes = []
     if beam.axial_acceleration != 0 and bool(np.any(np.ptp(beam.mass_per_length, axis=1))):
-        notes.append(f"N(x) is a curve: it is written as {PIECES} straight pieces an interval")
+        notes.append(_say_curved(beam, with_straight_force(beam)))
     beam = with_straight_force(beam)
     found = drawn(beam)
     if found is not None and not found.parts:
@@ -154,6 +154,18 @@ def _effect(beam: Beam, other: Beam) -> str:
         return "the effect of which could not be computed"
     change = float(np.nanmax(np.abs(g / f - 1)))
     return f"which changes its first three bending frequencies by {100 * change:.2g} % at most"
+
+
+def _say_curved(given: Beam, straight: Beam) -> str:
+    """Say how far N(x) of the straight pieces is off the curve."""
+    k, middle = np.arange(len(straight.x) - 1), (straight.x[:-1] + straight.x[1:]) / 2
+    at = np.searchsorted(given.x, middle, side="right") - 1
+    true = given.axial_force_at(at, (middle - given.x[at]) / np.diff(given.x)[at])
+    off = float(np.max(np.abs(straight.axial_force_at(k, np.full(len(k), 0.5)) - true)))
+    return (
+        f"N(x) is a curve: it is written as {PIECES} straight pieces an interval, up to {off:.2g} "
+        f"N off, {off / float(np.max(np.abs(true))):.1e} of the largest"
+    )
 
 
 def with_straight_force(beam: Beam) -> Beam:

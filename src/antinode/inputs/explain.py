@@ -6,8 +6,9 @@ to do next.
 
 from __future__ import annotations
 
+import difflib
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar, get_args, get_origin
 
@@ -131,7 +132,7 @@ def _sentence(model: type[BaseModel], key: str, problem: Problem) -> str:
     if kind == "value_error":
         return f"{key}: {context['error']}" if key else str(context["error"])
     if kind in _ALLOWED:
-        say = _ALLOWED[kind].format_map(context)
+        say = _meant(problem["input"], context) + _ALLOWED[kind].format_map(context)
     else:
         say = f"{problem['msg'][:1].lower()}{problem['msg'][1:]}: correct it"
     return f"{key or 'this'} is {short(problem['input'])}; {say}"
@@ -165,12 +166,69 @@ _ALLOWED = {
 """What is allowed and what to do next, by pydantic's kind of problem."""
 
 
+_SAME = {
+    "fixed": ("clamped", "fixed"),
+    "built-in": ("clamped", "fixed"),
+    "encastre": ("clamped",),
+    "cantilever": ("clamped",),
+    "clamped": ("fixed",),
+    "hinged": ("pinned", "free"),
+    "simply supported": ("pinned",),
+    "supported": ("pinned",),
+    "ss": ("pinned",),
+    "roller": ("pinned",),
+    "pinned": ("fixed",),
+    "guided": ("sliding",),
+    "symmetric": ("sliding",),
+    "none": ("free",),
+    "constant": ("step",),
+    "stepped": ("step",),
+    "logarithmic": ("log",),
+    "exponential": ("log",),
+}
+"""What others call the words that a key allows."""
+
+
+def _meant(value: object, context: Mapping[str, Any]) -> str:
+    """Ask for the allowed word that another one likely means."""
+    allowed = re.findall("'([^']*)'", str(context.get("expected", "")))
+    if not isinstance(value, str) or not allowed:
+        return ""
+    word = value.strip().lower().replace("_", " ")
+    near = [*_SAME.get(word, ()), *difflib.get_close_matches(word, allowed, n=1)]
+    found = next((name for name in near if name in allowed), None)
+    return f"did you mean '{found}'? " if found else ""
+
+
 def _suggestion(model: type[BaseModel], location: Location) -> str:
-    """Say which keys are allowed where an unknown one stands, nearest first."""
+    """Say which keys are allowed where an unknown one stands, nearest first.
+
+    A key that stands deeper in the file is named with its tables.
+    """
     for part in location[:-1]:
         if part in _fields(model):
             model = _inner_model(_fields(model)[str(part)].annotation) or model
-    return nearest(str(location[-1]), sorted(_fields(model)))
+    name = str(location[-1])
+    if deeper := next(_paths_to(name, model, ()), None):
+        return f"did you mean {deeper}?"
+    return nearest(name, sorted(_fields(model)))
+
+
+def _paths_to(name: str, model: type[BaseModel], path: tuple[str, ...]) -> Iterator[str]:
+    """Yield the dotted paths to a key that stands deeper in a model, nearest first."""
+    inner = {key: _inner_model(field.annotation) for key, field in _fields(model).items()}
+    tables = {key: found for key, found in inner.items() if found is not None}
+    for key, found in tables.items():
+        if name in _fields(found):
+            entry = (".0",) if get_origin(_fields(model)[key].annotation) is tuple else ("",)
+            yield ".".join((*path, f"{key}{entry[0]}", name))
+    if len(path) < _DEEP:
+        for key, found in tables.items():
+            if get_origin(_fields(model)[key].annotation) is not tuple:
+                yield from _paths_to(name, found, (*path, key))
+
+
+_DEEP = 3
 
 
 def _fields(model: type[BaseModel]) -> dict[str, FieldInfo]:

@@ -89,7 +89,29 @@ def toml_source(path: Path) -> str:
     InputError
         If it is missing, too large, or no text.
     """
+    if path.is_file() and (told := _OTHER_FILES.get(path.suffix.lower())):
+        raise InputError(f"{path}: {told.format(path=path, name=path.name)}")
     return read_text(path, MOST_TOML_BYTES, "a TOML file")
+
+
+_DECK = (
+    "this is a file of another program, no TOML; 'antinode convert {path} beam.toml' makes a beam "
+    "file of it"
+)
+_TABLE = (
+    "this is a table of stations; name it in a case file with vehicle.stations = '{name}', or "
+    "solve it as a beam with 'antinode beam {path}'"
+)
+_MEASURED = (
+    "these are measurements; 'antinode convert {path} observations.csv' makes observations for "
+    "'antinode identify' of them"
+)
+_OTHER_FILES = {
+    **dict.fromkeys((".bdf", ".nas", ".fem", ".dat"), _DECK),
+    **dict.fromkeys((".csv", ".xlsx"), _TABLE),
+    **dict.fromkeys((".uff", ".unv"), _MEASURED),
+}
+"""What files are that stand where a TOML file is expected, by ending."""
 
 
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
@@ -204,6 +226,11 @@ def read_beside_case(
     if "vehicle" in tables:
         raise InputError(
             f"{path}: this is a case file; name it in {what} with case = '{path.name}'"
+        )
+    if "beam" in tables:
+        raise InputError(
+            f"{path}: this is a beam file; {what} names the case of a vehicle: solve the beam with "
+            f"'antinode beam {path}', once for each change by --set, or vary it in Python"
         )
     return tables, where
 
@@ -385,6 +412,9 @@ def _factor(name: str, unit: str, where: str) -> float:
 def _check_column(name: str, columns: Sequence[str], where: str) -> None:
     if not name:
         raise InputError(f"{where}: a column has no name; name it, or remove it")
+    first, space, unit = name.partition(" ")
+    if space and first in columns:
+        raise InputError(f"{where}: {short(name)}: its unit stands in brackets: {first} [{unit}]")
     base, state, _ = name.partition(":")
     if base not in columns or (state and base != "mass_per_length"):
         raise InputError(f"{where}: unknown column {short(name)}; {nearest(base, columns)}")

@@ -13,6 +13,7 @@ from antinode.beam.attachments import Attachment, Dashpot, Joint, PointMass, Spr
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES
 from antinode.beam.file import ALL_COLUMNS, BeamFile
+from antinode.beam.parts import MassTable
 from antinode.inputs.reading import COLUMN_UNITS
 from antinode.vehicle.case import Case
 
@@ -85,11 +86,8 @@ def _vehicle(case: Case) -> Iterator[Block]:
     columns = [(name, unit, values) for name, values, unit in stations.columns()]
     yield station_table("Stations.", [("x", "m", stations.x), *columns])
     if vehicle.masses:
-        rows = [
-            (part.name, f"{number(part.x[0])} … {number(part.x[-1])}", _yes(part.burns))
-            for part in vehicle.masses
-        ]
-        yield table("Parts that add mass.", ("part", "x [m]", "burns"), rows, left=(0, 2))
+        rows = [(*_part(part), _yes(part.burns)) for part in vehicle.masses]
+        yield table("Parts that add mass, unburnt.", (*_PART, "burns"), rows, left=(0, 3))
 
 
 def _yes(value: bool) -> str:
@@ -207,8 +205,16 @@ def _loads_and_parts(file: BeamFile) -> Iterator[Block]:
         if forces:
             yield table("Axial point forces.", ("x [m]", "force along +x [N]"), forces, left=())
     if file.table.masses:
-        parts = [(p.name, f"{number(p.x[0])} … {number(p.x[-1])}") for p in file.table.masses]
-        yield table("Parts that add mass.", ("part", "x [m]"), parts)
+        yield table("Parts that add mass.", _PART, [_part(p) for p in file.table.masses])
+
+
+_PART = ("part", "x [m]", "mass [kg]")
+
+
+def _part(part: MassTable) -> tuple[str, str, str]:
+    """Return name, place and mass of a part, nothing of it burnt."""
+    mass = float(part.distribution().moments_ahead[0][-1])
+    return part.name, f"{number(part.x[0])} … {number(part.x[-1])}", number(mass)
 
 
 def attachment_tables(items: Iterable[Attachment]) -> Iterator[Block]:

@@ -72,7 +72,8 @@ def _brief(found: dict[str, Any], told: list[str]) -> list[str]:
         for each in found["modes"][:3]
     ]
     return [
-        f"{counted(found['cases'], 'case')} over {inputs}; {found['failed']} failed.",
+        f"{counted(found['cases'], 'case')} over {inputs}; {found['failed']} failed, "
+        f"{found['past_buckling']} past buckling.",
         "; ".join(ranges)[:1].upper() + "; ".join(ranges)[1:] + "." if ranges else "",
         warned(told),
     ]

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from antinode.vehicle.statics import StaticShape
 
 _WIDTH = 104
+_LEAST_WIDTH = 60
 _LONGEST_NAME = 80
 _MOST_LISTED = 4  # attachments that are shown one by one
 
@@ -36,14 +37,15 @@ _MOST_LISTED = 4  # attachments that are shown one by one
 def console() -> Console:
     """Return the console for results: as wide as the terminal, or 104 columns where there is none.
 
-    The environment variable COLUMNS says otherwise.
+    The environment variable COLUMNS says otherwise. Below 60 columns the terminal breaks lines
+    itself: tables would lose digits.
     """
     plain = Console()
     if plain.is_terminal:
-        return plain
+        return plain if plain.width >= _LEAST_WIDTH else Console(width=_LEAST_WIDTH)
     columns = os.environ.get("COLUMNS", "")
     width = int(columns) if columns.isdecimal() and len(columns) < 5 else _WIDTH
-    return Console(width=max(width, 20), color_system=None)
+    return Console(width=max(width, _LEAST_WIDTH), color_system=None)
 
 
 def new_table(*headings: str, left: Collection[int] = (0,)) -> Table:
@@ -93,10 +95,10 @@ _KEPT = ((0, 1, 2, 3, 4, 5), (0, 2, 3, 4, 5), (0, 2, 3, 5), (0, 2, 5))
 def modes_table(result: ModalResult, out: Console) -> Table:
     """Return the table of modes that fits the console: in short words, or with fewer columns."""
     choices = ((_KEPT[0], False), *((kept, True) for kept in _KEPT))
-    return _fitting((_modes_table(result, *choice) for choice in choices), out)
+    return fitting((_modes_table(result, *choice) for choice in choices), out)
 
 
-def _fitting(tables: Iterable[Table], out: Console) -> Table:
+def fitting(tables: Iterable[Table], out: Console) -> Table:
     """Return the first table that fits the console, or else the last one."""
     for table in tables:
         options = out.options.update(width=10 * _WIDTH)
@@ -149,8 +151,10 @@ def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
 def frequency_text(mode: Mode) -> str:
     """Return the frequency with as many decimals as its error leaves, 4 at least, 6 at most.
 
-    Where no error is known, 6.
+    Where no error is known, 6. One of which they would leave less than four digits has six digits.
     """
+    if 0.0 < mode.frequency_hz < 1e-3:
+        return f"{mode.frequency_hz:.6g}"
     size = 1e-6 if math.isnan(mode.error_hz) else max(mode.error_hz, 1e-300)
     decimals = int(np.clip(math.floor(-math.log10(size)), 1, 6 if mode.frequency_hz < 1e3 else 3))
     return f"{mode.frequency_hz:.{max(decimals, 4)}f}"
@@ -214,7 +218,7 @@ def _condition_text(case: Case) -> str:
         f"cavitator {math.degrees(c.cavitator_angle):.4g} deg",
         f"body {math.degrees(c.body_angle):.4g} deg" if c.body_angle else "",
         f"T = {c.thrust / 1e3:g} kN",
-        f"fins at {c.fin_position:g} m" if c.fin_position is not None else "",
+        f"fins at {c.fin_position:g} m" if case.vehicle.fins and c.fin_position is not None else "",
         f"burnt {c.burn_fraction:.0%}" if len(case.vehicle.stations.mass_per_length) > 1 else "",
     ]
     return ", ".join(part for part in parts if part)
@@ -238,9 +242,9 @@ def show_loads(out: Console, case: Case, shape: StaticShape) -> None:
     show_condition(out, case)
     out.print(_forces_table(case))
     choices = ((HEADINGS, 4), (HEADINGS, 2), (BRIEF_HEADINGS, 2))
-    out.print(_fitting((_internal_table(case, shape, *choice) for choice in choices), out))
+    out.print(fitting((_internal_table(case, shape, *choice) for choice in choices), out))
     out.print(f"[dim]{EXPLANATION}{FRAME}[/dim]", highlight=False)
-    out.print(_fitting((_validity_table(case, brief) for brief in (False, True)), out))
+    out.print(fitting((_validity_table(case, brief) for brief in (False, True)), out))
     show_warnings(out, loads_warnings(case, shape))
 
 
@@ -330,16 +334,19 @@ def show_checks(checks: Sequence[Check]) -> None:
     """Print the table of built-in checks and the verdict."""
     failed = sum(not check.passed for check in checks)
     out = console()
-    out.print(checks_table(checks))
+    out.print(fitting((checks_table(checks, brief) for brief in (False, True)), out))
     verdict = f"{failed} of {len(checks)} checks failed" if failed else "all checks passed"
     out.print(f"{verdict} (allowed relative error of a frequency {ALLOWED:g})", highlight=False)
 
 
-def checks_table(checks: Iterable[Check]) -> Table:
-    """Return the table of built-in checks."""
+def checks_table(checks: Iterable[Check], brief: bool = False) -> Table:
+    """Return the table of built-in checks, or what of it a narrow terminal holds."""
     headings = ("check", "closed form", "modes", "worst relative error", "")
-    table = new_table(*headings, left=(0, 1, 3, 4))
+    if brief:
+        headings = ("check", "worst", "")
+    table = new_table(*headings, left=(0, len(headings) - 1, *((1, 3) if not brief else ())))
     for check in checks:
+        cells = (check.name, check.formula, str(check.modes), f"{check.worst:.1e}")
         mark = "passed" if check.passed else "FAILED"
-        _row(table, check.name, check.formula, str(check.modes), f"{check.worst:.1e}", mark)
+        _row(table, *(cells[::3] if brief else cells), mark)
     return table

@@ -165,3 +165,38 @@ def _limits(marks: list[Any]) -> tuple[float, float, bool]:
     if any(isinstance(m, Column) for m in marks):
         low.append(0.0)
     return max(low, default=-math.inf), min(high, default=math.inf), strict
+
+
+_OF_SIGMA = (
+    ("condition", "depth"),
+    ("condition", "cavity_pressure"),
+    ("water", "vapour_pressure"),
+    ("water", "atmospheric_pressure"),
+)
+
+
+def without_effect(case: Case, keys: Keys) -> str:
+    """Say why a number of a case changes no load and no frequency; nothing if it may change some.
+
+    Parameters
+    ----------
+    case : Case
+    keys : tuple
+        Of the number.
+    """
+    given, vehicle = case.condition, case.vehicle
+    if keys in _OF_SIGMA and given.cavitation_number is not None:
+        return (
+            "the case gives cavitation_number, which alone makes the cavity; remove it from the "
+            "case, or vary it instead"
+        )
+    own = all(fins.position is not None for fins in vehicle.fins)
+    of_drag = given.extra_drag and given.extra_drag_position is None
+    if keys == ("condition", "fin_position") and own and not of_drag:
+        return "no fin set stands there; vary vehicle.fins.0.position instead"
+    if keys == ("condition", "extra_drag_position") and not given.extra_drag:
+        return "the case has no extra_drag"
+    burns = len(vehicle.stations.mass_per_length) > 1 or any(p.burns for p in vehicle.masses)
+    if keys == ("condition", "burn_fraction") and not burns:
+        return "the vehicle has one mass state, and no part that burns"
+    return ""

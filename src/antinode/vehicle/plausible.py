@@ -25,6 +25,8 @@ from .numbers import ManyCases
 
 DENSITIES = 100.0, 2e4
 """Mean density of a body [kg/m^3]: foam, and tungsten (19,300)."""
+LIQUIDS = 400.0, 2e4
+"""Density of liquids [kg/m^3]: below that of propane, and above mercury's."""
 SPEED_OF_SOUND = 1482.0
 """In fresh water of 20 C [m/s]."""
 
@@ -43,6 +45,8 @@ def doubtful_vehicles(
     """
     every = (
         *_last_row(cases),
+        *_depth(cases),
+        _water(cases),
         _density(cases, mass),
         _section(cases),
         *_fins(cases),
@@ -62,6 +66,33 @@ def _last_row(cases: ManyCases) -> Iterator[LoadWarning]:
     if told:
         none, text = np.zeros(cases.cases), f"{told[0].upper()}{told[1:]}."
         yield LoadWarning(text, "rows", none, 0.0, 0.0, none == 0, lambda _: text)
+
+
+def _depth(cases: ManyCases) -> Iterator[LoadWarning]:
+    """Tell that a depth does nothing beside a cavitation number."""
+    given = cases.condition
+    if given.cavitation_number is not None and given.depth is not None:
+        none = np.zeros(cases.cases)
+        text = (
+            "The cavitation number is given, and alone makes the cavity: the depth changes nothing "
+            "but the pressure that it implies in it; leave cavitation_number out to have it follow "
+            "from the depth."
+        )
+        yield LoadWarning(text, "depth [m]", none, 0.0, 0.0, none == 0, lambda _: text)
+
+
+def _water(cases: ManyCases) -> LoadWarning:
+    value, (low, high) = cases.number("water", "density"), LIQUIDS
+    rest = f"no liquid's, {low:g} to {high:g} kg/m^3: check the unit of water.density [kg/m^3]."
+    return LoadWarning(
+        f"The density of the water is {rest}",
+        "density of the water [kg/m^3]",
+        value,
+        low,
+        high,
+        (value < low) | (value > high),
+        lambda k: f"The density of the water, {value[k]:.4g} kg/m^3, is {rest}",
+    )
 
 
 def _density(cases: ManyCases, mass: Array) -> LoadWarning:

@@ -22,11 +22,11 @@ def convert(
 ) -> None:
     """Convert a beam, or measurements, from one file format to another.
 
-    The endings say which. Read are .toml, .csv, .xlsx, NASTRAN's .bdf and .nas, tables of sections
-    of BModes and ElastoDyn in .dat, and measurements in .uff and .unv. Written are the beam as
-    .toml, .csv or .xlsx, its modes as .json, .nc, .mat, .uff or .vtu, decks for solvers as .bdf
-    (NASTRAN) and .inp (CalculiX), and measurements as observations for **antinode identify** in
-    .toml, .csv or .json.
+    The endings say which. Read are .toml, .csv, .xlsx, NASTRAN's .bdf, .nas and .fem, tables of
+    sections of BModes and ElastoDyn in .dat, and measurements in .uff and .unv. Written are the
+    beam as .toml, .csv or .xlsx, its modes as .json, .nc, .mat, .uff or .vtu, decks for solvers as
+    .bdf (NASTRAN) and .inp (CalculiX), and measurements as observations for **antinode identify**
+    in .toml, .csv or .json.
 
     - Example: **antinode convert beam.toml beam.bdf --units mm-t-s**
     - Example: **antinode convert tower.dat tower.toml --length 87.6m --set beam.ends.left=clamped**

@@ -43,15 +43,29 @@ class Cases:
     def __len__(self) -> int:
         return len(self.values)
 
-    @cached_property
+    @property
     def numbers(self) -> Numbers:
-        """What varies, by keys: arrays over cases, columns with a second dimension."""
+        """What varies, by keys: arrays over cases, columns with a second dimension.
+
+        Columns that no body can have are those of the case itself; `outside` tells where.
+        """
+        return self._numbers[0]
+
+    @cached_property
+    def _numbers(self) -> tuple[Numbers, npt.NDArray[np.bool_]]:
+        """Return what varies, and in which cases a column is none that a body can have."""
         given = list(zip(self.variables, self.values.T, strict=True))
         found = {v.keys: self._number(v, x) for v, x in given if v.kind == "number"}
         rows = {k: v for k, v in found.items() if k[:2] == _STATIONS}
         whole = self._columns([(v, x) for v, x in given if v.kind == "column"])
         whole = self._with_rows(whole, rows)
-        return {**{k: v for k, v in found.items() if k not in rows}, **whole}
+        odd = np.zeros(len(self), dtype=bool)
+        for keys, columns in whole.items():
+            own = self._column(keys)
+            wrong = ~np.all(np.isfinite(columns) & ((columns > 0) | (own == 0)), axis=1)
+            whole[keys] = np.where(wrong[:, None], own, columns)
+            odd |= wrong
+        return {**{k: v for k, v in found.items() if k not in rows}, **whole}, odd
 
     def _number(self, variable: Variable, given: Array) -> Array:
         start = value_at(self.study.case, variable.keys) if variable.given.factor else None
@@ -105,7 +119,7 @@ class Cases:
 
     def outside(self) -> npt.NDArray[np.bool_]:
         """Tell in which cases an input is outside the range that the case allows."""
-        wrong = np.zeros(len(self), dtype=bool)
+        wrong = self._numbers[1].copy()
         for variable, given in zip(self.variables, self.values.T, strict=True):
             if variable.kind == "column":
                 wrong |= ~(given > 0)

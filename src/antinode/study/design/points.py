@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.families import FAMILIES
 from antinode.errors import InputError
 from antinode.text import nearest, short
 
@@ -147,6 +148,7 @@ def points_of(study: Study) -> Points:
         raise InputError("inputs is empty; give at least one [[inputs]], or design.table")
     variables = tuple(v for given in study.inputs for v in variables_of(study.case, given))
     _check_names(variables)
+    _check_families(study)
     kind = study.design.kind
     if kind in _SAMPLED:
         cases, shape = _sample_number(study, variables)
@@ -228,6 +230,18 @@ def _check_figure(study: Study, variables: tuple[Variable, ...]) -> None:
     if study.figure.x is not None and study.figure.x not in names:
         wrong = short(study.figure.x)
         raise InputError(f"figure.x = {wrong} is no input; {nearest(study.figure.x, names)}")
+
+
+def _check_families(study: Study) -> None:
+    """Refuse a family of modes for which the vehicle has no columns."""
+    stations = study.case.vehicle.stations
+    for family in study.solve.families:
+        absent = [t for t in FAMILIES[family].tables if getattr(stations, t, 0.0) is None]
+        if absent:
+            raise InputError(
+                f"solve.families: {family} modes need {absent[0]}, which the vehicle's stations "
+                "do not have: add the column, or leave the family out"
+            )
 
 
 def _check_names(variables: tuple[Variable, ...]) -> None:

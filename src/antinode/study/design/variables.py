@@ -17,7 +17,7 @@ from antinode.vehicle.case import Case
 from antinode.vehicle.columns import column_keys, interpolation_matrix
 from antinode.vehicle.condition import OperatingCondition
 from antinode.vehicle.numbers import Keys, value_at
-from antinode.vehicle.paths import Place, find_place
+from antinode.vehicle.paths import Place, find_place, without_effect
 from antinode.vehicle.vehicle import Vehicle
 
 from .file import StudyInput
@@ -85,6 +85,11 @@ class Variable:
         g = self.given
         if g.values is not None:
             return np.array([self.number(v, "values") for v in g.values])
+        if g.distribution is not None and g.number is None:
+            raise InputError(
+                f"inputs, {self.name}: a distribution is for samples; write design = {{ kind = "
+                "'sobol', number = 256 }, or give values"
+            )
         if g.low is None or g.high is None or g.number is None:
             raise InputError(f"inputs, {self.name}: give values, or low, high and number")
         low, high = self._range()
@@ -198,6 +203,8 @@ def variables_of(case: Case, given: StudyInput) -> list[Variable]:
             f"inputs: key = {short(given.key)}: the case has 0 there, which no factor changes; "
             "leave out factor and give values of its own"
         )
+    if why := without_effect(case, place.keys):
+        raise InputError(f"inputs: key = {short(given.key)} changes nothing: {why}")
     name = given.name or str(place.keys[-1] if isinstance(place.keys[-1], str) else place.text)
     unit = "1" if given.factor else place.unit or "1"
     return [

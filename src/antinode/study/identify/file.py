@@ -282,7 +282,7 @@ def load_identification(path: str | Path, assignments: Iterable[str] = ()) -> Id
         If anything in it is wrong.
     """
     path = Path(path)
-    tables, where = read_beside_case(path, assignments, "a file")
+    tables, where = read_beside_case(path, assignments, "an identification file")
     elsewhere = {}
     if isinstance(source := tables.get("observations"), str):
         elsewhere["observations"] = path.parent / source

@@ -213,10 +213,15 @@ def search(misfit: Misfit, fit: Fit, progress: Progress) -> Search:
     ------
     ComputationError
         If nothing could be computed at all.
+    KeyboardInterrupt
+        If the fit was interrupted before anything was found.
     """
     found = Search(misfit, fit, progress, misfit.unknowns.start)
     found.run()
     if not math.isfinite(found.best_cost):
-        at = "the model could not be computed at the start; check the case with 'antinode modes'"
-        raise ComputationError("interrupted before anything was found" if found.interrupted else at)
+        if found.interrupted:
+            raise KeyboardInterrupt
+        raise ComputationError(
+            "the model could not be computed at the start; check the case with 'antinode modes'"
+        )
     return found

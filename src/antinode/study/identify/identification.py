@@ -48,6 +48,8 @@ def identify(
         If the problem contradicts itself, or asks more than the data could tell.
     ComputationError
         If the model cannot be computed at the start.
+    KeyboardInterrupt
+        If the fit was interrupted before its first evaluation.
     """
     began = time.perf_counter()
     misfit = prepare(problem)

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.console import Console
+from rich.table import Table
 from rich.text import Text
 
 from antinode.errors import InputError
 from antinode.inputs.reading import read_toml
 from antinode.show.outcome import check_plot, draw, print_json
-from antinode.show.printing import new_table, show_warnings
+from antinode.show.printing import fitting, new_table, show_warnings
 from antinode.study.design.file import Study, StudyInput, load_study
 from antinode.study.progress import cases_progress, end_progress
 from antinode.study.sweep.report import shear_text, warning_texts
@@ -96,29 +97,43 @@ def show_sensitivity(out: Console, result: SensitivityResult) -> None:
         f"{counted(result.cases, 'case')}, {result.failed} failed",
         highlight=False,
     )
-    bands = new_table("mode", "nominal [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to", "by shear")
+    out.print(fitting((_bands(result, kept) for kept in _BANDS_KEPT), out))
+    out.print(fitting((_indices(result, kept) for kept in _INDICES_KEPT), out))
+    show_warnings(out, warning_texts(result.warnings, result.cases))
+
+
+_BANDS = ("mode", "nominal [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to", "by shear")
+_BANDS_KEPT = (range(7), (0, 2, 3, 4, 5, 6), (0, 2, 3, 6))
+_INDICES = ("mode", "input", "total index", "+-", "first index", "+-", "% per %")
+_INDICES_KEPT = (range(7), (0, 1, 2, 3, 4, 6), (0, 1, 2, 3))
+"""Columns that narrower terminals keep."""
+
+
+def _bands(result: SensitivityResult, kept: Sequence[int]) -> Table:
+    table = new_table(*(_BANDS[k] for k in kept))
     for m in result.modes:
-        cells = (m.nominal, m.mean, m.sd, *m.band)
-        bands.add_row(m.name, *(f"{v:.5g}" for v in cells), shear_text(m.model_error))
-    out.print(bands)
-    table = new_table(
-        "mode", "input", "total index", "+-", "first index", "+-", "% per %", left=(0, 1)
-    )
+        numbers = (f"{v:.5g}" for v in (m.nominal, m.mean, m.sd, *m.band))
+        cells = (m.name, *numbers, shear_text(m.model_error))
+        table.add_row(*(cells[k] for k in kept))
+    return table
+
+
+def _indices(result: SensitivityResult, kept: Sequence[int]) -> Table:
+    left = tuple(k for k, column in enumerate(kept) if column < 2)
+    table = new_table(*(_INDICES[k] for k in kept), left=left)
     for m in result.modes:
         order = np.argsort(-np.nan_to_num(m.indices.total))[:_SHOWN]
         for number, k in enumerate(order.tolist()):
             halves = [np.ptp(b[k]) / 2 for b in (m.indices.total_band, m.indices.first_band)]
-            table.add_row(
+            indices = (m.indices.total[k], halves[0], m.indices.first[k], halves[1])
+            cells = (
                 m.name if number == 0 else "",
                 Text(result.inputs[k]),
-                *(
-                    f"{v:.3f}"
-                    for v in (m.indices.total[k], halves[0], m.indices.first[k], halves[1])
-                ),
+                *(f"{v:.3f}" for v in indices),
                 f"{m.elasticity[k]:+.4f}" if np.isfinite(m.elasticity[k]) else "",
             )
-    out.print(table)
-    show_warnings(out, warning_texts(result.warnings, result.cases))
+            table.add_row(*(cells[column] for column in kept))
+    return table
 
 
 def tornado(result: SensitivityResult) -> Figure:

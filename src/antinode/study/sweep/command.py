@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import xarray
 
 _FILES = (".nc", ".csv")
+_STORES = (".zarr", "")
 _SMALL = 20_000  # cases that one process solves before others have started
 
 
@@ -44,6 +45,11 @@ def run_sweep(
     """
     to_file = output is not None and output.suffix.lower() in _FILES
     check_plot(plot)
+    if output and not to_file and output.suffix.lower() not in _STORES and not output.is_dir():
+        raise InputError(
+            f"{output}: a sweep is written as {', '.join(_FILES)}, or into a folder, a store, "
+            "called .zarr or without an ending: name another"
+        )
     if to_file and output:
         from antinode.show.writing import check_output
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from rich.text import Text
 from antinode.arrays import Array, Integers
 from antinode.errors import AntinodeError
 from antinode.modes.warnings import shear_buckles
-from antinode.show.printing import new_table, percent, show_warnings
+from antinode.show.printing import fitting, new_table, percent, show_warnings
 from antinode.study.cases.reasons import PAST_BUCKLING, WHY, failed
 from antinode.study.cases.values import Cases
 from antinode.study.design.points import Points
@@ -143,7 +143,7 @@ def show_sweep(out: Console, data: dict[str, Any], stored: str) -> None:
     )
     out.print(_inputs_table(data))
     if data["modes"]:
-        out.print(_modes_table(data))
+        out.print(fitting((_modes_table(data, kept) for kept in _KEPT), out))
     if data["past_buckling"]:
         number = counted(data["past_buckling"], "case")
         out.print(f"{number} past buckling: the first mode has no frequency there", highlight=False)
@@ -163,14 +163,19 @@ def _inputs_table(data: dict[str, Any]) -> Table:
     return table
 
 
-def _modes_table(data: dict[str, Any]) -> Table:
-    headings = ("mode", "cases", "least [Hz]", "mean [Hz]", "largest [Hz]", "+- [Hz]", "by shear")
-    table = new_table(*headings)
+_HEADINGS = ("mode", "cases", "least [Hz]", "mean [Hz]", "largest [Hz]", "+- [Hz]", "by shear")
+_KEPT = (range(7), (0, 1, 2, 4, 5, 6), (0, 2, 4, 6))
+"""Columns that narrower terminals keep."""
+
+
+def _modes_table(data: dict[str, Any], kept: Sequence[int]) -> Table:
+    table = new_table(*(_HEADINGS[k] for k in kept))
     for m in data["modes"]:
         shown = ["" if m[key] is None else f"{m[key]:.6g}" for key in _RANGE]
         error, shear = m["largest_error_hz"], m["largest_model_error"]
         shown += ["" if error is None else f"{error:.1e}", shear_text(shear)]
-        table.add_row(m["name"], str(m["cases"]), *shown)
+        cells = (m["name"], str(m["cases"]), *shown)
+        table.add_row(*(cells[k] for k in kept))
     return table
 
 

@@ -85,7 +85,8 @@ def track(shapes: Array, omega2: Array, before: Integers, weights: Array, family
             likeness = (scaled[back, was] @ scaled[i, own].T) ** 2
             with np.errstate(all="ignore"):
                 apart = np.abs(np.subtract.outer(omega2[back, was], omega2[i, own]))
-                apart = np.nan_to_num(apart / np.nanmax(np.abs(omega2[i, own])), posinf=0.0)
+                largest = np.max(np.nan_to_num(np.abs(omega2[i, own])))
+                apart = np.nan_to_num(apart / largest, posinf=0.0)
             rows, columns = linear_sum_assignment(_TIE * apart - likeness)
             mode[i, own] = columns + first
             mac[i, own] = likeness[rows, columns]
