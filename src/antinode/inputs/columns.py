@@ -123,7 +123,7 @@ def dropped_row(
     columns : iterable
         Names and values of what stands at them.
     units : mapping
-        Of the columns.
+        Of the columns; without them the numbers are left out.
 
     Returns
     -------
@@ -134,9 +134,11 @@ def dropped_row(
     name, before, last = next(differing, ("", 0.0, 0.0))
     if interpolation != "step" or not name:
         return ""
+    lost = f"{name} stays that of the row before up to the end"
+    if units:
+        lost = f"{name} stays {before:g} up to the end, not {last:g} {units[name]}"
     return (
         f"the last row of the table, at x = {x[-1]:g} m, is not used: with interpolation = 'step', "
-        f"the default, a row holds up to the next one, so {name} stays {before:g} up to the end, "
-        f"not {last:g} {units[name]}; set interpolation = 'linear' if values run straight between "
-        "the rows, else repeat the row before"
+        f"the default, a row holds up to the next one, so {lost}; set interpolation = 'linear' if "
+        "values run straight between the rows, else repeat the row before"
     )

@@ -89,7 +89,7 @@ def toml_source(path: Path) -> str:
     InputError
         If it is missing, too large, or no text.
     """
-    if path.is_file() and (told := _OTHER_FILES.get(path.suffix.lower())):
+    if (told := _OTHER_FILES.get(path.suffix.lower())) and path.is_file():
         raise InputError(f"{path}: {told.format(path=path, name=path.name)}")
     return read_text(path, MOST_TOML_BYTES, "a TOML file")
 

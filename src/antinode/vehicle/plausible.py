@@ -62,7 +62,7 @@ def _last_row(cases: ManyCases) -> Iterator[LoadWarning]:
         column = getattr(table, name, None)
         states = column.values() if isinstance(column, dict) else (column,)
         columns += [(name, state) for state in states if name != "x" and state is not None]
-    told = dropped_row(cases.vehicle.interpolation, table.x, columns, COLUMN_UNITS)
+    told = dropped_row(cases.vehicle.interpolation, table.x, columns, {})
     if told:
         none, text = np.zeros(cases.cases), f"{told[0].upper()}{told[1:]}."
         yield LoadWarning(text, "rows", none, 0.0, 0.0, none == 0, lambda _: text)
