@@ -341,7 +341,7 @@ def show_checks(checks: Sequence[Check]) -> None:
 
 def checks_table(checks: Iterable[Check], brief: bool = False) -> Table:
     """Return the table of built-in checks, or what of it a narrow terminal holds."""
-    headings = ("check", "closed form", "modes", "worst relative error", "")
+    headings: tuple[str, ...] = ("check", "closed form", "modes", "worst relative error", "")
     if brief:
         headings = ("check", "worst", "")
     table = new_table(*headings, left=(0, len(headings) - 1, *((1, 3) if not brief else ())))

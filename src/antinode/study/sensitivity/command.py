@@ -126,7 +126,7 @@ def _indices(result: SensitivityResult, kept: Sequence[int]) -> Table:
         for number, k in enumerate(order.tolist()):
             halves = [np.ptp(b[k]) / 2 for b in (m.indices.total_band, m.indices.first_band)]
             indices = (m.indices.total[k], halves[0], m.indices.first[k], halves[1])
-            cells = (
+            cells: tuple[str | Text, ...] = (
                 m.name if number == 0 else "",
                 Text(result.inputs[k]),
                 *(f"{v:.3f}" for v in indices),
