@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.beam.representation import own_loss
@@ -48,6 +48,8 @@ class Basis:
         b: work of each unit drive on each mode; of the ground's acceleration, in relative motion.
     outputs : array, shape (outputs, n)
         c: each output's component of the state of each mode, relative to the ground.
+    drag : array, shape (outputs, n)
+        What each output takes of the rate of each mode: a reaction, by the dashpots there.
     """
 
     names: tuple[str, ...]
@@ -55,6 +57,18 @@ class Basis:
     damping: Array
     drives: Array
     outputs: Array
+    drag: Array
+
+    def chosen(self, which: Integers) -> Basis:
+        """Return some of its modes."""
+        return Basis(
+            tuple(self.names[k] for k in which.tolist()),
+            self.omega2[which],
+            self.damping[np.ix_(which, which)],
+            self.drives[which],
+            self.outputs[:, which],
+            self.drag[:, which],
+        )
 
     @property
     def frequency_hz(self) -> Array:
@@ -131,6 +145,7 @@ def basis(
         C,
         b.reshape(len(drives), len(found)).T,
         c.reshape(len(outputs), len(found)),
+        np.array([shown.dragged(o) if o.family == family else 0 * omega2 for o in outputs]),
     )
 
 
@@ -176,6 +191,15 @@ class _Shown:
             return self._reaction(-1 - output.component, node)
         on_left = node == last or (output.side == "left" and node > 0)
         return np.asarray((self.left(node) if on_left else self.states[node])[:, output.component])
+
+    def dragged(self, output: Output) -> Array:
+        """Return what an output takes of the rates of all modes."""
+        node, freedom = self.node(output.x), -1 - output.component
+        point = next((p for p in self.chain.points if p.node == node), Point(node))
+        if freedom < 0 or not point.damps:
+            return np.zeros(len(self.omega2))
+        drag = (point.dashpot, point.rotational_dashpot)[freedom]
+        return np.asarray(-drag * self.before_joint(node)[:, freedom])
 
     def _reaction(self, freedom: int, node: int) -> Array:
         """Return what the ground does to the beam at a node, by the jump there and at an end."""

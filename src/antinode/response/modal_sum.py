@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from antinode.arrays import Array, Numbers
+from antinode.arrays import Array, Integers, Numbers
 from antinode.beam.families import FamilyName
 from antinode.errors import ComputationError
 from antinode.riccati.forced import Lanes
@@ -109,6 +109,10 @@ class Summed:
         elastic = omega2[omega2 > 1e-9 * np.max(np.abs(omega2))]
         return float(np.min(elastic) + 2 * np.max(np.maximum(-omega2, 0.0)))
 
+    def rest_of(self, kept: Integers) -> Array:
+        """Return the static rest beside some of the modes alone, (outputs, drives)."""
+        return np.asarray(self.whole - self._static(self.basis.chosen(kept)))
+
     def _static(self, own: Basis) -> Array:
         """Return the sum at -sigma, of displacements, without rates, (outputs, drives)."""
         return own.outputs @ (own.drives / (own.omega2 + self.shift)[:, None])
@@ -121,12 +125,14 @@ class Summed:
         omega = 2 * np.pi * frequency_hz
         coordinates = modal_coordinates(own, omega)
         H = np.einsum("on,kni->oik", own.outputs, coordinates) + rest[:, :, None]
+        H = H + 1j * omega * np.einsum("on,kni->oik", own.drag, coordinates)
         return outputs_of(H, self.model.outputs, self.model.drives, omega, self.family)
 
     def error(self, frequency_hz: Array) -> Array:
         """Return how far half of the modes are from all of them, and what is wrong at rest."""
-        half = _first(self.basis, (len(self.basis.omega2) + 1) // 2)
-        few = self._sum(half, self.whole - self._static(half), frequency_hz)
+        order = np.argsort(self.basis.omega2, kind="stable")
+        half = order[: (len(order) + 1) // 2]
+        few = self._sum(self.basis.chosen(half), self.rest_of(half), frequency_hz)
         missing = np.max(np.abs(self.at(frequency_hz) - few), axis=-1)
         rates = outputs_of(
             np.ones((*missing.shape, 1), complex) * self.whole_error[:, :, None],
@@ -201,15 +207,3 @@ def static_whole(model: Model, family: FamilyName, shift: float) -> tuple[Array,
     values, wrong = refined(model.beam, family, compute, model.first(family), 1e-9)
     whole[rows], error[rows] = np.real(values[:, :, 0]), wrong
     return whole, error + 1e-12 * np.abs(whole)
-
-
-def _first(own: Basis, count: int) -> Basis:
-    """Return the lowest modes of a basis."""
-    order = np.argsort(own.omega2, kind="stable")[:count]
-    return Basis(
-        tuple(own.names[k] for k in order),
-        own.omega2[order],
-        own.damping[np.ix_(order, order)],
-        own.drives[order],
-        own.outputs[:, order],
-    )

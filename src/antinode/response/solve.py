@@ -5,15 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from antinode.errors import InputError
-
 from .file import Problem, load_response
 
 if TYPE_CHECKING:
     from .harmonic import HarmonicResult
     from .random import RandomResult
+    from .shock import ShockResult
+    from .transient import TransientResult
 
-    Result = HarmonicResult | RandomResult
+    Result = HarmonicResult | RandomResult | TransientResult | ShockResult
 
 
 def solve_response(problem: Problem | str | Path) -> Result:
@@ -46,4 +46,10 @@ def solve_response(problem: Problem | str | Path) -> Result:
         from .random import solve_random
 
         return solve_random(own)
-    raise InputError(f"kind '{kind}' is not known")
+    if kind == "transient":
+        from .transient import solve_transient
+
+        return solve_transient(own)
+    from .shock import solve_shock
+
+    return solve_shock(own)

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from antinode.response.harmonic import HarmonicResult
     from antinode.response.modal import Basis
     from antinode.response.random import OutputStatistics, RandomResult
+    from antinode.response.shock import ShockResult
+    from antinode.response.transient import TransientResult
 
 _MOST_PEAKS = 4
 
@@ -149,4 +151,38 @@ def scale_of(unit: str) -> Shown:
     return Shown(STANDARD_GRAVITY, "g") if unit == "m/s^2" else Shown(1.0, unit)
 
 
-_SHOWN: dict[str, Any] = {"harmonic": _show_harmonic, "random": _show_random}
+def _show_transient(out: Console, result: TransientResult) -> None:
+    t = result.time_s
+    out.print(
+        Text(f"{t[0]:g} to {t[-1]:g} s, {len(t)} times; {result.count} modes and a static rest")
+    )
+    table = new_table("output", "largest", "unit", "+-", "at [s]", left=(0, 2))
+    rows = zip(result.outputs, result.largest, result.peak_error, strict=True)
+    for output, (time, value), error in rows:
+        size = scale_of(output.unit)
+        cells = (f"{value / size.factor:.5g}", size.unit, f"{error / size.factor:.1e}")
+        table.add_row(*(Text(cell) for cell in (output.name, *cells, f"{time:.5g}")))
+    out.print(table)
+
+
+def _show_shock(out: Console, result: ShockResult) -> None:
+    f = result.frequency_hz
+    out.print(
+        Text(f"oscillators of {f[0]:g} to {f[-1]:g} Hz, Q = {result.q:g}; {result.count} modes")
+    )
+    table = new_table("output", "largest SRS", "unit", "+-", "at [Hz]", left=(0, 2))
+    for row, output in enumerate(result.outputs):
+        size, k = scale_of(output.unit), int(np.argmax(result.srs[row]))
+        cells = (f"{result.srs[row, k] / size.factor:.5g}", size.unit)
+        more = (f"{result.error[row] / size.factor:.1e}", f"{f[k]:.5g}")
+        table.add_row(*(Text(cell) for cell in (output.name, *cells, *more)))
+    out.print(table)
+    show_verdicts(out, result.verdicts)
+
+
+_SHOWN: dict[str, Any] = {
+    "harmonic": _show_harmonic,
+    "random": _show_random,
+    "transient": _show_transient,
+    "shock": _show_shock,
+}

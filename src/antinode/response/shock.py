@@ -1,0 +1,226 @@
+"""Shock response spectra: the largest acceleration of oscillators that ride on an output.
+
+An oscillator of frequency f and ratio zeta = 1/(2 Q) on a place that accelerates by a(t):
+``w'' + 2 zeta omega w' + omega^2 w = -a``; it feels ``-(2 zeta omega w' + omega^2 w)``. The
+recurrence is exact for a straight between its points: Smallwood's ramp-invariant filter (Shock Vib.
+Bull. 51 (1981) 279; ISO 18431-4). Largest, during the record and after it ("maximax").
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from antinode.arguments import ByValue, numbers, within
+from antinode.arrays import Array
+from antinode.beam.limits import out_of_range_is_an_error
+from antinode.errors import InputError
+
+from .damping import Damping
+from .equipment import Verdict, items_of
+from .file import Problem
+from .frequency import Model, checked_frequencies
+from .harmonic import output_keys
+from .modal import Basis
+from .numbers import plain
+from .quantities import Drive, Output
+from .recurrence import phi
+from .transient import histories_of, respond, slow_warnings
+
+_PER_PERIOD = 40  # points of the record in a period of the oscillator, at least
+
+
+def srs(
+    time_s: npt.ArrayLike,
+    acceleration: npt.ArrayLike,
+    frequency_hz: npt.ArrayLike,
+    ratio: float = 0.05,
+) -> Array:
+    """Return the maximax shock response spectrum of a record.
+
+    Parameters
+    ----------
+    time_s : array_like, shape (k,)
+        Even times [s].
+    acceleration : array_like, shape (k,)
+        Any unit; straight between the times, zero before them and after.
+    frequency_hz : array_like, shape (n,)
+        [Hz].
+    ratio : float
+        Damping ratio of the oscillators, 1/(2 Q); from 0 to below 1.
+
+    Returns
+    -------
+    array, shape (n,)
+        In the unit of the record.
+    """
+    t, a = numbers("time_s", time_s), numbers("acceleration", acceleration)
+    ratio = within("ratio", ratio, 0.0, 0.999, " (1/(2 Q))")
+    if t.ndim != 1 or t.shape != a.shape or len(t) < 2:
+        raise InputError("time_s and acceleration must be two lists of the same length, 2 or more")
+    step = np.diff(t)
+    if np.any(step <= 0) or np.ptp(step) > 1e-6 * np.mean(step):
+        raise InputError("time_s must rise by even steps: resample the record")
+    h = float((t[-1] - t[0]) / (len(t) - 1))
+    return np.array([_largest(a, h, f, ratio) for f in checked_frequencies(frequency_hz)])
+
+
+def _largest(a: Array, h: float, f: float, ratio: float) -> float:
+    """Return the largest acceleration of one oscillator."""
+    from scipy.signal import lfilter
+
+    fine = max(1, int(np.ceil(_PER_PERIOD * f * h)))
+    if fine > 1:
+        places = np.arange((len(a) - 1) * fine + 1) / fine
+        a, h = np.interp(places, np.arange(len(a)), a), h / fine
+    omega, damped = 2 * np.pi * f, 2 * np.pi * f * np.sqrt(1 - ratio**2)
+    root = -ratio * omega + 1j * damped
+    e, one, two = phi(np.array([root * h]))
+    b = h * np.array([two[0], (one - two)[0]])
+    z, _ = lfilter(b, [1.0, -e[0]], a, zi=[-b[0] * a[0]])
+
+    def felt(z: Any) -> tuple[Array, Array]:
+        """Return what the oscillator feels, and its rate; z answers to the acceleration itself."""
+        w, rate = np.imag(z) / damped, np.imag(root * z) / damped
+        return 2 * ratio * omega * rate + omega**2 * w, rate
+
+    x, rate = felt(z)
+    change = 2 * ratio * omega * (a - 2 * ratio * omega * rate - omega**2 * np.imag(z) / damped)
+    change = change + omega**2 * rate
+    after = np.exp(root * np.linspace(0, 1 / f, 4 * _PER_PERIOD + 1)) * z[-1]
+    y, late = felt(after)
+    fall = 2 * ratio * omega * (-2 * ratio * omega * late - omega**2 * np.imag(after) / damped)
+    fall = fall + omega**2 * late
+    return max(_cubic_peak(x, change, h), _cubic_peak(y, fall, 1 / f / (4 * _PER_PERIOD)))
+
+
+def _cubic_peak(x: Array, rate: Array, h: float) -> float:
+    """Return the largest modulus of cubics through values and rates."""
+    k = np.flatnonzero(rate[:-1] * rate[1:] < 0)
+    best = float(np.max(np.abs(x)))
+    if not len(k):
+        return best
+    x0, x1, r0, r1 = x[k], x[k + 1], h * rate[k], h * rate[k + 1]
+    c2, c3 = 3 * (x1 - x0) - 2 * r0 - r1, 2 * (x0 - x1) + r0 + r1
+    with np.errstate(all="ignore"):
+        root = np.sqrt(np.maximum(c2**2 - 3 * c3 * r0, 0.0))
+        s = -r0 / (c2 + np.where(c2 >= 0, root, -root))
+        other = -(c2 + np.where(c2 >= 0, root, -root)) / (3 * c3)
+    for place in (s, other):
+        inside = np.isfinite(place) & (place > 0) & (place < 1)
+        p = np.where(inside, place, 0.0)
+        best = max(best, float(np.max(np.abs(x0 + p * (r0 + p * (c2 + p * c3))))))
+    return best
+
+
+@dataclass(frozen=True, eq=False)
+class ShockResult(ByValue):
+    """Shock response spectra of outputs.
+
+    Attributes
+    ----------
+    title : str
+    frequency_hz : array, shape (k,)
+    outputs : tuple of Output
+    srs : array, shape (outputs, k)
+        In the unit of each output.
+    error : array, shape (outputs,)
+        Of the histories, times what an oscillator can make of them.
+    q : float
+    verdicts : tuple of Verdict
+    count : int
+        Modes that were summed.
+    modes : tuple of Basis
+    damping : Damping
+    warnings : tuple of str
+    """
+
+    title: str
+    frequency_hz: Array
+    outputs: tuple[Output, ...]
+    srs: Array = field(repr=False)
+    error: Array
+    q: float
+    verdicts: tuple[Verdict, ...]
+    count: int
+    modes: tuple[Basis, ...] = field(repr=False)
+    damping: Damping
+    warnings: tuple[str, ...]
+
+    kind = "shock"
+
+    @property
+    def passed(self) -> bool:
+        """Whether all equipment is within what it is qualified for."""
+        return all(verdict.passed for verdict in self.verdicts)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain numbers for JSON."""
+        rows = [
+            {**output_keys(o), "srs": plain(self.srs[row]), "error": plain(self.error[row])}
+            for row, o in enumerate(self.outputs)
+        ]
+        return {
+            "schema_version": 1,
+            "kind": self.kind,
+            "name": self.title,
+            "damping": self.damping.describe(),
+            "q": self.q,
+            "modes": self.count,
+            "frequency_hz": self.frequency_hz.tolist(),
+            "outputs": rows,
+            "equipment": [verdict.to_dict() for verdict in self.verdicts],
+            "warnings": list(self.warnings),
+        }
+
+    def curves(self) -> list[tuple[Output, Drive | None, Array, Array, str]]:
+        """Return output, no drive, frequencies, spectrum and unit, for universal files."""
+        rows = zip(self.outputs, self.srs, strict=True)
+        return [(o, None, self.frequency_hz, values, o.unit) for o, values in rows]
+
+    def columns(self) -> list[tuple[str, Array]]:
+        """Return a table: frequency, then the spectrum of each output."""
+        rows = zip(self.outputs, self.srs, strict=True)
+        heads = ((f"SRS of {o.name} [{o.unit}]", v) for o, v in rows)
+        return [("frequency [Hz]", self.frequency_hz), *heads]
+
+
+@out_of_range_is_an_error()
+def solve_shock(problem: Problem) -> ShockResult:
+    """Compute the shock response spectra that a file asks for."""
+    file, damping = problem.file, problem.damping
+    assert file.time is not None
+    assert file.frequency is not None
+    frequency, items = file.frequency.hertz(), items_of(problem, "amplitude")
+    time = np.arange(0, round(file.time.to / file.time.step) + 1) * file.time.step
+    outputs = (*file.outputs, *(item.output for item in items))
+    model = Model(problem.beam, file.drives, outputs, damping, 1 / file.time.to)
+    y, error, _, driven, bases, count = respond(
+        model, histories_of(problem), time, file.response.modes
+    )
+    ratio, asked = 1 / (2 * file.shock.q), y[:, driven.asked]
+    spectra = np.array([srs(time, row, frequency, ratio) for row in asked])
+    shown, verdicts = len(file.outputs), []
+    for k, item in enumerate(items):
+        low, high = item.overlap(float(frequency[0]), float(frequency[-1]))
+        inner = np.concatenate([frequency, item.allowed.frequency_hz, [low, high]])
+        places = np.unique(inner[(inner >= low) & (inner <= high)])
+        felt = srs(time, asked[shown + k], places, ratio)
+        verdicts.append(item.judged(places, felt[None], 20.0, bases, ()))
+    warnings = slow_warnings(model, y, error)
+    return ShockResult(
+        problem.title,
+        frequency,
+        outputs[:shown],
+        spectra[:shown],
+        (error * file.shock.q * np.pi)[:shown],
+        file.shock.q,
+        tuple(verdicts),
+        count,
+        bases,
+        damping,
+        tuple(warnings),
+    )
