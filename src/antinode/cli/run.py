@@ -1,6 +1,7 @@
 """Where `antinode` starts: it runs a command and turns every failure into one sentence on stderr.
 
-Exit codes: 0 done, 1 the computation failed, 2 the input was wrong, 130 interrupted.
+Exit codes: 0 done, 1 the computation failed, 2 the input was wrong, 3 a verdict is no, 130
+interrupted.
 """
 
 from __future__ import annotations

@@ -18,6 +18,7 @@ EXAMPLES = {
     "rocket": "antinode beam {folder}beam.toml",
     "drill_string": "antinode beam {folder}beam.toml",
     "shaft": "antinode beam {folder}beam.toml",
+    "response": "antinode response {folder}response.toml",
 }
 """Name of each example and the command to run next."""
 

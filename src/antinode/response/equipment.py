@@ -111,6 +111,13 @@ class Item:
             )
         return both
 
+    def places(self, frequency_hz: Array, more: Sequence[float]) -> Array:
+        """Return where to compare: a grid, peaks, and kinks of what is allowed, in both bands."""
+        low, high = self.overlap(float(frequency_hz[0]), float(frequency_hz[-1]))
+        kinks = self.allowed.frequency_hz
+        places = np.unique(np.concatenate([frequency_hz, more, kinks, [low, high]]))
+        return places[(places >= low) & (places <= high)]
+
     def judged(
         self,
         frequency_hz: Array,

@@ -114,6 +114,10 @@ class TimeTable(Frozen):
             raise ValueError(f"to over step is {self.to / self.step:.3g}; at most 1e6 times")
         return self
 
+    def seconds(self) -> Array:
+        """Return the times [s]."""
+        return np.asarray(self.step * np.arange(round(self.to / self.step) + 1), dtype=float)
+
 
 class Driven(Frozen):
     """How large a drive is, in one of three ways."""
@@ -212,17 +216,21 @@ class ShockTable(Frozen):
 class ResponseFile(Frozen):
     """A response file with everything in it."""
 
-    response: ResponseTable
-    damping_table: DampingTable = Field(DampingTable(), alias="damping")
-    frequency: FrequencyTable | None = None
-    time: TimeTable | None = None
-    random: RandomTable = RandomTable()
-    shock: ShockTable = ShockTable()
-    forces: tuple[ForceTable, ...] = ()
-    base: BaseTable | None = None
-    outputs_table: tuple[OutputTable, ...] = Field((), alias="outputs")
-    coherence: tuple[CoherenceTable, ...] = ()
-    equipment: tuple[EquipmentTable, ...] = ()
+    response: ResponseTable = Field(description="what is asked for")
+    damping_table: DampingTable = Field(
+        DampingTable(), alias="damping", description="what loses energy"
+    )
+    frequency: FrequencyTable | None = Field(None, description="at which frequencies")
+    time: TimeTable | None = Field(None, description="at which times")
+    random: RandomTable = Field(RandomTable(), description="more of a random response")
+    shock: ShockTable = Field(ShockTable(), description="of shock response spectra")
+    forces: tuple[ForceTable, ...] = Field((), description="forces and moments on the beam")
+    base: BaseTable | None = Field(None, description="motion of the supports")
+    outputs_table: tuple[OutputTable, ...] = Field(
+        (), alias="outputs", description="numbers to follow, in this order"
+    )
+    coherence: tuple[CoherenceTable, ...] = Field((), description="random forces that go together")
+    equipment: tuple[EquipmentTable, ...] = Field((), description="units and what they may feel")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -235,6 +243,8 @@ class ResponseFile(Frozen):
             raise ValueError(f"a response of kind '{kind}' needs the table [frequency]")
         if kind in ("transient", "shock") and self.time is None:
             raise ValueError(f"a response of kind '{kind}' needs the table [time]")
+        if kind == "transient" and self.equipment:
+            raise ValueError("equipment is judged by spectra: set response.kind = 'shock'")
         need = {"harmonic": "amplitude", "random": "psd"}.get(kind, "history")
         for name, table in self.drive_tables():
             if getattr(table, need) is None:

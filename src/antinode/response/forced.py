@@ -8,7 +8,7 @@ varies the chain is an approximation: `refined` halves its steps, by the one err
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -26,7 +26,9 @@ from antinode.riccati.points import Point
 from .damping import Damping
 from .quantities import Base, Drive, Output, family_of
 
-_MOST_SEGMENTS = 50_000
+_MOST_SEGMENTS = 20_000
+NOISE = 1e-12
+"""Of the largest response of a unit: what is left where the exact one is nothing."""
 
 
 class Forced:
@@ -155,6 +157,8 @@ def refined(
     compute: Callable[[int], Array | Numbers],
     first: int,
     tolerance: float,
+    units: Sequence[str],
+    noise: float = NOISE,
 ) -> tuple[Numbers, Array]:
     """Return numbers of a beam, and how wrong they may be, from chains whose steps are halved.
 
@@ -166,6 +170,10 @@ def refined(
         Refinement to start from.
     tolerance : float
         Of the largest number of the last axis.
+    units : sequence of str
+        Of the first axis: what is nothing but rounding beside others of its unit is let pass.
+    noise : float
+        How small that is, over the largest of a unit.
 
     Returns
     -------
@@ -182,7 +190,7 @@ def refined(
     def on(levels: dict[FamilyName, int]) -> Array | Numbers:
         return compute(levels[family])
 
-    return refined_all(beam, {family: first}, on, tolerance)
+    return refined_all(beam, {family: first}, on, tolerance, units, noise)
 
 
 def refined_all(
@@ -190,6 +198,8 @@ def refined_all(
     first: dict[FamilyName, int],
     compute: Callable[[dict[FamilyName, int]], Array | Numbers],
     tolerance: float,
+    units: Sequence[str],
+    noise: float = NOISE,
 ) -> tuple[Numbers, Array]:
     """Return numbers that several families make together, as `refined` does.
 
@@ -213,7 +223,7 @@ def refined_all(
             layer = max(layer_length(c, varying_segments(beam, c)) for c in chains)
             better, error = _judged(levels[-4:], layer)
             size = np.max(np.abs(better), axis=-1)
-            if np.all(error <= tolerance * size):
+            if np.all(error <= tolerance * size + noise * largest_of_unit(size, units)):
                 return better, error
         longest = max(len(chain.length) for chain in chains)
         if 2 * longest > _MOST_SEGMENTS:
@@ -222,6 +232,15 @@ def refined_all(
                 "give a larger tolerance, a lower frequency, or more damping"
             )
         refinement = {f: r * (2 if f in varying else 1) for f, r in refinement.items()}
+
+
+def largest_of_unit(size: Array, units: Sequence[str]) -> Array:
+    """Return, for each number, the largest among those of the same unit, along the first axis."""
+    largest, names = np.array(size), np.array(units)
+    for unit in set(units):
+        rows = names == unit
+        largest[rows] = np.max(size[rows], axis=0)
+    return largest
 
 
 def _judged(levels: list[Numbers], layer: float) -> tuple[Numbers, Array]:

@@ -151,8 +151,9 @@ class Model:
             def compute(refinement: int, family: FamilyName = family) -> Numbers:
                 return self.forced(family, refinement).at(omega)
 
+            units = [self.outputs[row].unit for row in rows]
             H[rows], error[rows] = refined(
-                self.beam, family, compute, self.first(family), tolerance
+                self.beam, family, compute, self.first(family), tolerance, units
             )
             finest = max(r for name, r in self._chains if name == family)
             error[rows] += rounding(self.forced(family, finest), omega, H[rows])

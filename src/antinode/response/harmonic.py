@@ -13,6 +13,7 @@ from antinode.beam.beam import Beam
 from antinode.beam.limits import out_of_range_is_an_error
 
 from .damping import Damping
+from .equipment import Verdict, items_of
 from .file import Problem
 from .frequency import Model
 from .modal import Basis, basis, modes_below
@@ -47,6 +48,8 @@ class HarmonicResult(ByValue):
         Of each output, inside the band.
     modes : tuple of Basis
         What resonates, by family.
+    verdicts : tuple of Verdict
+        Of the equipment.
     damping : Damping
     warnings : tuple of str
     """
@@ -62,10 +65,16 @@ class HarmonicResult(ByValue):
     amplitudes: Numbers
     peaks: tuple[tuple[Peak, ...], ...]
     modes: tuple[Basis, ...] = field(repr=False)
+    verdicts: tuple[Verdict, ...]
     damping: Damping
     warnings: tuple[str, ...]
 
     kind = "harmonic"
+
+    @property
+    def passed(self) -> bool:
+        """Whether all equipment is within what it is qualified for."""
+        return all(verdict.passed for verdict in self.verdicts)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers for JSON."""
@@ -87,6 +96,7 @@ class HarmonicResult(ByValue):
             "damping": self.damping.describe(),
             "frequency_hz": self.frequency_hz.tolist(),
             "outputs": rows,
+            "equipment": [verdict.to_dict() for verdict in self.verdicts],
             "warnings": list(self.warnings),
         }
 
@@ -169,7 +179,8 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
     file, damping = problem.file, problem.damping
     assert file.frequency is not None
     frequency, amplitude = file.frequency.hertz(), file.amplitudes()
-    drives, outputs = file.drives, file.outputs
+    items, shown = items_of(problem, "amplitude"), len(file.outputs)
+    drives, outputs = file.drives, (*file.outputs, *(item.output for item in items))
     model = Model(problem.beam, drives, outputs, damping, float(frequency[-1]))
     modes = bases(model.beam, drives, outputs, damping, float(frequency[-1]))
     if damping.modal:
@@ -188,18 +199,27 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
 
     peaks = find_peaks(sizes, grid, sizes(grid)) if len(grid) > 2 else [[] for _ in outputs]
     warnings = resonance_warnings(modes, float(frequency[0]), float(frequency[-1]))
+    verdicts = []
+    for row, item in enumerate(items, shown):
+        more = [peak.frequency_hz for peak in peaks[row]]
+        places = item.places(grid, more)
+        each = np.abs(at(places)[row] * amplitude[:, None])
+        both = sizes(places)[row]
+        part = each / np.maximum(np.sum(each, axis=0), 1e-300)
+        verdicts.append(item.judged(places, part * both, 20.0, modes, file.drive_names))
     return HarmonicResult(
         problem.title,
         frequency,
-        outputs,
-        shares.sum(axis=1),
-        error @ np.abs(amplitude),
-        shares,
+        outputs[:shown],
+        shares.sum(axis=1)[:shown],
+        (error @ np.abs(amplitude))[:shown],
+        shares[:shown],
         drives,
         file.drive_names,
         amplitude,
-        tuple(map(tuple, peaks)),
+        tuple(map(tuple, peaks[:shown])),
         modes,
+        tuple(verdicts),
         damping,
         tuple(warnings),
     )

@@ -204,6 +204,8 @@ def static_whole(model: Model, family: FamilyName, shift: float) -> tuple[Array,
                 H[:, case] /= shift  # by the acceleration of the ground, sigma times its motion
         return H[:, :, None]
 
-    values, wrong = refined(model.beam, family, compute, model.first(family), 1e-9)
+    values, wrong = refined(
+        model.beam, family, compute, model.first(family), 1e-9, [o.unit for o in outputs]
+    )
     whole[rows], error[rows] = np.real(values[:, :, 0]), wrong
     return whole, error + 1e-12 * np.abs(whole)

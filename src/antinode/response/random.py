@@ -25,7 +25,7 @@ from antinode.errors import InputError
 from .damping import Damping
 from .equipment import Item, Verdict, items_of
 from .file import Problem
-from .forced import refined_all
+from .forced import NOISE, largest_of_unit, refined_all
 from .frequency import Model
 from .harmonic import bases, output_keys, resonance_warnings
 from .integrals import Pieces, integrate, pieces_of
@@ -263,7 +263,9 @@ def moments(
         return np.stack([square, np.sum(parts[:, 1], axis=-1) / top], axis=1)[:, :, None]
 
     first = {family: model.first(family) for family in model.families}
-    better, error = refined_all(model.beam, first, compute, tolerance)
+    better, error = refined_all(
+        model.beam, first, compute, tolerance, [o.unit for o in model.outputs], NOISE**1.5
+    )
     parts = last["parts"]
     square = better[:, 0, 0]
     return Moments(
@@ -293,14 +295,12 @@ def _integrals(
         S = np.sum(shares, axis=1, keepdims=True)
         return np.concatenate([S, frequency_hz**2 * S, shares], axis=1).reshape(number * kinds, -1)
 
-    units = np.array([output.unit for output in model.outputs])
+    units = [output.unit for output in model.outputs]
 
     def scales(whole: Array) -> Array:
         """Measure by the outputs' own; by the largest of a unit where rounding is all there is."""
-        own = whole.reshape(number, kinds).copy()
-        for unit in set(units.tolist()):
-            rows = units == unit
-            own[rows] = np.maximum(own[rows], _NOISE * np.max(own[rows], axis=0))
+        own = whole.reshape(number, kinds)
+        own = np.maximum(own, _NOISE * largest_of_unit(own, units))
         own[:, 2:] = own[:, :1]
         return own.ravel()
 
@@ -451,10 +451,7 @@ def _judge(
     names: Sequence[str],
 ) -> Verdict:
     """Compare an item's spectrum with what is allowed, at peaks and between them."""
-    low, high = item.overlap(float(grid[0]), float(grid[-1]))
-    kinks = item.allowed.frequency_hz
-    places = np.unique(np.concatenate([grid, [p.frequency_hz for p in peaks], kinks, [low, high]]))
-    places = places[(places >= low) & (places <= high)]
+    places = item.places(grid, [peak.frequency_hz for peak in peaks])
     shares = inputs.shares(model.quick(places)[row : row + 1], places)[0]
     return item.judged(places, shares, 10.0, modes, names)
 

@@ -195,7 +195,7 @@ def solve_shock(problem: Problem) -> ShockResult:
     assert file.time is not None
     assert file.frequency is not None
     frequency, items = file.frequency.hertz(), items_of(problem, "amplitude")
-    time = np.arange(0, round(file.time.to / file.time.step) + 1) * file.time.step
+    time = file.time.seconds()
     outputs = (*file.outputs, *(item.output for item in items))
     model = Model(problem.beam, file.drives, outputs, damping, 1 / file.time.to)
     y, error, _, driven, bases, count = respond(
@@ -205,11 +205,10 @@ def solve_shock(problem: Problem) -> ShockResult:
     spectra = np.array([srs(time, row, frequency, ratio) for row in asked])
     shown, verdicts = len(file.outputs), []
     for k, item in enumerate(items):
-        low, high = item.overlap(float(frequency[0]), float(frequency[-1]))
-        inner = np.concatenate([frequency, item.allowed.frequency_hz, [low, high]])
-        places = np.unique(inner[(inner >= low) & (inner <= high)])
+        places = item.places(frequency, [])
         felt = srs(time, asked[shown + k], places, ratio)
-        verdicts.append(item.judged(places, felt[None], 20.0, bases, ()))
+        names = file.drive_names if len(file.drive_names) == 1 else ()
+        verdicts.append(item.judged(places, felt[None], 20.0, bases, names))
     warnings = slow_warnings(model, y, error)
     return ShockResult(
         problem.title,

@@ -1,6 +1,6 @@
 """Transient responses: histories of outputs under forces that run straight between points.
 
-Modes move exactly (`recurrence`), those left out are at rest under the force as it is (`modal_sum`).
+Modes move exactly (`recurrence`), those left out rest under the force as it is (`modal_sum`).
 A loss factor acts as the viscous ratio that loses as much at each mode's resonance: time knows no
 loss factor. The stated error is what the last part of the modes still changed, and what chords of
 formulas differ from their curves.
@@ -236,7 +236,7 @@ def histories_of(problem: Problem) -> tuple[History, ...]:
 def respond(
     model: Model, histories: tuple[History, ...], time_s: Array, modes: int | None
 ) -> tuple[Array, Array, Array, Driven, tuple[Basis, ...], int]:
-    """Return outputs on the grid of all kinks, errors, chords' share, the grid, modes and number."""
+    """Return outputs on the grid of kinks, errors, the part of chords, grid, modes, number."""
     driven = Driven(histories, time_s)
     y = np.zeros((len(model.outputs), len(driven.time_s)))
     error, chords = np.zeros(len(y)), np.zeros(len(y))
@@ -276,7 +276,7 @@ def solve_transient(problem: Problem) -> TransientResult:
     """Compute the histories that a file asks for."""
     file, damping = problem.file, problem.damping
     assert file.time is not None
-    time = np.arange(0, round(file.time.to / file.time.step) + 1) * file.time.step
+    time = file.time.seconds()
     histories = histories_of(problem)
     model = Model(problem.beam, file.drives, file.outputs, damping, 1 / file.time.to)
     y, error, _, driven, bases, count = respond(model, histories, time, file.response.modes)
@@ -307,8 +307,8 @@ def slow_warnings(model: Model, y: Array, error: Array) -> list[str]:
     if not slow:
         return []
     return [
-        f"modes left out still change {'; '.join(slow[:4])}: a force that jumps, or a shock shorter "
-        "than a mode's period, shakes all modes; see the errors, smooth the force, or set "
+        f"modes left out still change {'; '.join(slow[:4])}: a force that jumps, or a shock "
+        "shorter than a mode's period, shakes all modes; see the errors, smooth the force, or set "
         "response.modes"
     ]
 

@@ -34,8 +34,11 @@ def _panels(number: int, title: str) -> tuple[Figure, list[Axes]]:
 
 def _draw_harmonic(result: Any) -> Figure:
     with styled():
-        figure, axes = _panels(len(result.outputs), _title(result))
-        for row, (output, panel) in enumerate(zip(result.outputs, axes, strict=True)):
+        equipment = list(result.verdicts)
+        figure, axes = _panels(len(result.outputs) + len(equipment), _title(result))
+        for verdict, panel in zip(equipment, axes[len(result.outputs) :], strict=True):
+            _draw_limit(panel, verdict, 1)
+        for row, (output, panel) in enumerate(zip(result.outputs, axes, strict=False)):
             size = scale_of(output.unit)
             amplitude = np.abs(result.values[row]) / size.factor
             peaks = [(p.frequency_hz, p.size / size.factor) for p in result.peaks[row]]

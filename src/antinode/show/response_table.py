@@ -53,6 +53,7 @@ def _show_harmonic(out: Console, result: HarmonicResult) -> None:
             more = (f"{result.error[row]:.1e}", "no peak")
             table.add_row(*(Text(cell) for cell in (output.name, *largest, *more)))
     out.print(table)
+    show_verdicts(out, result.verdicts)
 
 
 def mode_near(modes: tuple[Basis, ...], frequency_hz: float) -> str:

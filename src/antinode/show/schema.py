@@ -8,14 +8,16 @@ from pydantic import BaseModel
 
 from antinode.beam.file import BeamFile
 from antinode.errors import InputError
+from antinode.response.file import ResponseFile
 from antinode.text import short
 from antinode.vehicle.case import Case
 
 MODELS: dict[str, tuple[type[BaseModel], str]] = {
     "case": (Case, "Stations"),
     "beam": (BeamFile, "BeamStations"),
+    "response": (ResponseFile, ""),
 }
-"""Each input file with the name of its table of stations."""
+"""Each input file with the name of its table of stations, if it has one."""
 
 
 def input_schema(name: str) -> dict[str, Any]:
@@ -23,7 +25,7 @@ def input_schema(name: str) -> dict[str, Any]:
 
     Parameters
     ----------
-    name : {"case", "beam"}
+    name : {"case", "beam", "response"}
 
     Raises
     ------
@@ -35,7 +37,8 @@ def input_schema(name: str) -> dict[str, Any]:
         raise InputError(f"there is no schema {short(name)}; allowed are {names}")
     model, stations = MODELS[name]
     schema = model.model_json_schema()
-    _name_mass_states(schema["$defs"][stations])
+    if stations:
+        _name_mass_states(schema["$defs"][stations])
     for definition in schema["$defs"].values():
         if "stations" in definition.get("properties", {}):
             _allow_file(definition["properties"])

@@ -375,7 +375,7 @@ class TestJson:
 
 
 class TestSchema:
-    @pytest.mark.parametrize("of", ["case", "beam"])
+    @pytest.mark.parametrize("of", ["case", "beam", "response"])
     def test_is_a_schema_with_a_description_for_every_key(self, of):
         schema = strict_json(run("schema", of).out)
         jsonschema.Draft202012Validator.check_schema(schema)
@@ -389,7 +389,8 @@ class TestSchema:
     def test_accepts_the_examples(self, tmp_path, name):
         run("init", "--example", name, tmp_path)
         for file in tmp_path.glob("*.toml"):
-            of = {CASE: "case", "beam.toml": "beam"}.get(file.name, "study")
+            known = {CASE: "case", "beam.toml": "beam", "response.toml": "response"}
+            of = known.get(file.name, "study")
             jsonschema.validate(tomllib.loads(file.read_text()), strict_json(run("schema", of).out))
 
     @pytest.mark.parametrize(

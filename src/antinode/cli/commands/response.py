@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -73,3 +74,5 @@ def response(
         from antinode.show.response_table import show_response
 
         show_response(console(), result)
+    if not getattr(result, "passed", True):
+        sys.exit(3)

@@ -14,7 +14,7 @@ def schema(of: str = "case", /) -> None:
     Parameters
     ----------
     of
-        case, beam, study or identify.
+        case, beam, response, study or identify.
     """
     from antinode.show.schema import input_schema
 
