@@ -238,11 +238,11 @@ class Beam(ByValue):
                 points[self._breakpoint(item.x)] += item.mass
         return np.concatenate([[0.0], np.cumsum(whole)]) + np.cumsum(points)
 
-    def mass_left_of(self, interval: Integers, fraction: Array) -> Array:
+    def mass_left_of(self, interval: Integers | slice, fraction: Array) -> Array:
         """Return the mass left of places inside intervals [kg]."""
         return np.asarray(self.mass_left[interval] + self._mass_of_part(interval, fraction))
 
-    def _mass_of_part(self, interval: Integers, fraction: Array) -> Array:
+    def _mass_of_part(self, interval: Integers | slice, fraction: Array) -> Array:
         m, length = self.mass_per_length[interval], np.diff(self.x)[interval]
         return moments_of_part(m, length, fraction, self.interpolation, most=0)[0]
 
@@ -299,7 +299,7 @@ class Beam(ByValue):
         own = J2 - J1 * J1 / J0 + sum(item.rotary_inertia for item in masses)
         return float(own + np.sum(dm * (at - centre) ** 2))
 
-    def column_at(self, name: str, interval: Integers, fraction: Array) -> Array:
+    def column_at(self, name: str, interval: Integers | slice, fraction: Array) -> Array:
         """Return a table's values inside intervals, at fractions 0 ... 1 of their lengths.
 
         What no logarithm is for runs straight, or by its control values.
@@ -326,7 +326,7 @@ class Beam(ByValue):
         """Whether a flexibility in shear counts."""
         return self.is_timoshenko and self.shear_stiffness is not None
 
-    def axial_force_at(self, interval: Integers, fraction: Array) -> Array:
+    def axial_force_at(self, interval: Integers | slice, fraction: Array) -> Array:
         """Return N [N] inside intervals, at fractions 0 ... 1 of their lengths."""
         N = self.column_at("axial_force", interval, fraction)
         if self.axial_acceleration == 0.0:

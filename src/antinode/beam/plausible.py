@@ -44,7 +44,7 @@ def doubts(beam: Beam) -> list[str]:
         Empty for any usual structure.
     """
     per_length = beam.mass / beam.length
-    own = replace(beam, attachments=()).mass / beam.length
+    own = replace(beam, attachments=()).mass / beam.length if beam.attachments else per_length
     pulled = list(_weight_from_clamp(beam))
     EI = 1 / _mean_compliance(beam, "bending_stiffness")
     if beam.axial_stiffness is None:
@@ -56,9 +56,9 @@ def doubts(beam: Beam) -> list[str]:
 
 
 def _mean_compliance(beam: Beam, name: str) -> float:
-    k = np.arange(len(beam.x) - 1)
-    values = (beam.column_at(name, k, np.full(len(k), t)) for t in (0.0, 0.5, 1.0))
-    return float(_mean_of_inverse(np.diff(beam.x), *values))
+    h = np.diff(beam.x)
+    values = (beam.column_at(name, np.s_[:], np.full(len(h), t)) for t in (0.0, 0.5, 1.0))
+    return float(_mean_of_inverse(h, *values))
 
 
 def mean_compliance(stiffness: Profile) -> Array:

@@ -38,7 +38,7 @@ def copies(times: Integers) -> tuple[Integers, Integers]:
     return index, np.arange(len(index)) - (np.cumsum(times) - times)[index]
 
 
-Values = Callable[[Integers, Array], Array]
+Values = Callable[[Integers | slice, Array], Array]
 """Of a property inside intervals, at fractions of their lengths."""
 
 
@@ -53,8 +53,8 @@ def make_chain(
     varies = beam.varies(family)
     law, values = FAMILIES[family].law, _values(beam, family, loss)
     if not varies.any():
-        k, left_end = np.arange(len(beam.x) - 1), np.zeros(len(beam.x) - 1)
-        columns = {name: np.array(v(k, left_end)) for name, v in values.items()}
+        all_, left_end = np.s_[:], np.zeros(len(beam.x) - 1)
+        columns = {name: np.array(v(all_, left_end)) for name, v in values.items()}
         left, right, points = beam.points(family)
         return Chain(law, np.diff(beam.x), columns, left, right, points, beam.following(family))
     cell, start, size = coarsest_steps(beam, family)
@@ -113,7 +113,7 @@ def _values(beam: Beam, family: FamilyName, loss: float | None = None) -> dict[s
     return values
 
 
-def own_loss(beam: Beam, interval: Integers, fraction: Array) -> Array:
+def own_loss(beam: Beam, interval: Integers | slice, fraction: Array) -> Array:
     """Return the beam's own loss factor inside intervals; zero where none is given."""
     if beam.loss_factor is None:
         return np.zeros(())
@@ -123,7 +123,7 @@ def own_loss(beam: Beam, interval: Integers, fraction: Array) -> Array:
 def _shear(stiffness: Values, force: Values, engesser: bool) -> dict[str, Values]:
     """Return s, sN and sN^2 of Haringx' form; Engesser's kGA is one that is smaller by N."""
 
-    def flexibility(k: Integers, t: Array) -> Array:
+    def flexibility(k: Integers | slice, t: Array) -> Array:
         kGA = stiffness(k, t)
         rigid = np.isinf(kGA)
         soft = np.where(rigid, 1.0, kGA - (force(k, t) if engesser else 0.0))
@@ -136,7 +136,7 @@ def _shear(stiffness: Values, force: Values, engesser: bool) -> dict[str, Values
     }
 
 
-def _over(beam: Beam, name: str, interval: Integers, start: Array, size: Array) -> Array:
+def _over(beam: Beam, name: str, interval: Integers | slice, start: Array, size: Array) -> Array:
     """Return values between which a column stays in steps: at their ends, or control values."""
     table = getattr(beam, name)
     if table.shape[1] > 2:

@@ -33,5 +33,5 @@ def cancelling(size: Array, mass: Array, omega2: Array) -> Array:
     it is given the most that any mode has.
     """
     own = size / mass
-    most = np.nanmax(own, initial=0.0)
+    most = np.fmax.reduce(own, initial=0.0)
     return np.where((omega2 != 0.0) & (np.abs(omega2) < ROUNDING * most), most, own)

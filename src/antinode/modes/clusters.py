@@ -28,6 +28,8 @@ def part(backend: Backend, chain: Chain, omega2: Array, states: Array) -> Array:
         Ascending [rad^2/s^2].
     states : array, shape (n + 1, k, s)
     """
+    if np.all(omega2[1:] - omega2[:-1] > _NEAR * np.abs(omega2[1:])):
+        return states
     groups = [group for group in near_groups(omega2) if len(group) > 1]
     if not groups:
         return states

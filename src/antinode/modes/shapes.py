@@ -22,14 +22,15 @@ from .rigid import rigid_state
 def output_grid(beam: Beam, modes: int) -> Array:
     """Return breakpoints and points between, dense enough for smooth shapes [m]."""
     spacing = beam.length / max(200, 20 * (modes + 2))
-    h = np.diff(beam.x)
+    h = beam.x[1:] - beam.x[:-1]
     pieces = np.ceil(h / spacing).astype(int)
-    k = np.repeat(np.arange(len(pieces)), pieces)
-    number = np.arange(len(k)) - (np.cumsum(pieces) - pieces)[k]
-    points = beam.x[k] + number * (h / pieces)[k]
+    first = np.cumsum(pieces) - pieces
+    number = np.arange(first[-1] + pieces[-1]) - np.repeat(first, pieces)
+    points = np.repeat(beam.x[:-1], pieces) + number * np.repeat(h / pieces, pieces)
     inner = [item.x for item in beam.attachments if beam.x[0] < item.x < beam.x[-1]]
     doubled = sorted({int(np.argmin(np.abs(beam.x - x))) for x in inner})
-    return np.sort(np.concatenate([points, beam.x[-1:], beam.x[doubled]]))
+    grid = np.append(points, beam.x[-1])
+    return np.sort(np.append(grid, beam.x[doubled])) if doubled else grid
 
 
 def shapes(
@@ -54,12 +55,8 @@ def shapes(
         states[:, free] = solver.mode_states(chain, values[free], np.ones(len(free), np.int64))
     elif free:
         omega2 = values[free]
-        clusters = np.array(
-            [
-                sum(eigenvalues[keep[o]].bracket == eigenvalues[keep[c]].bracket for o in free)
-                for c in free
-            ]
-        )
+        brackets = [eigenvalues[keep[c]].bracket for c in free]
+        clusters = np.array([brackets.count(bracket) for bracket in brackets])
         found = solver.mode_states(chain, omega2, clusters)
         states[:, free] = part(solver, chain, omega2, found)
     return states
@@ -70,7 +67,7 @@ def on_grid(chain: Chain, states: Array, omega2: Array, grid: Array) -> Array:
     nodes = chain.nodes
     node = np.searchsorted((nodes[1:] + nodes[:-1]) / 2, grid)  # the nearest one
     values = states[node].copy()
-    left = np.flatnonzero(np.diff(grid, append=np.inf) == 0.0)
+    left = np.flatnonzero(grid[1:] == grid[:-1])
     if len(left):
         before = node[left] - 1
         values[left] = propagate(chain, states[before], omega2, chain.length[before], before)

@@ -29,7 +29,7 @@ from antinode.riccati.shapes import Energies, split_for
 from .backends import Backend, BackendName, choose, for_one
 from .brackets import ROUNDING, cancelling
 from .naming import name_modes, with_joint_brackets
-from .refinement import Solved, solve_family
+from .refinement import NEAR_ZERO, Solved, solve_family
 from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .shapes import estimate_model_errors, normalising_factors, on_grid, output_grid, shapes
 from .solvers import Solver, solver_of
@@ -189,24 +189,24 @@ def _modes_of(
         for k, (value, (_, number)) in enumerate(zip(solved.eigenvalues, names, strict=True))
         if number <= modes or value.order < 0 or value.imaginary
     ]
-    chain = solved.chain.cut_at(np.unique(grid - grid[0]))
+    places = grid - grid[0]
+    chain = solved.chain.cut_at(places[np.append(True, places[1:] > places[:-1])])
     omega2 = np.array([solved.eigenvalues[k].value for k in keep])
     chain = split_for(chain, np.abs(omega2))
     states = shapes(backend, beam, chain, solved.eigenvalues, keep, names)
     energies = _energies(backend, chain, states, omega2)
     scale = normalising_factors(chain, states, omega2, np.abs(energies.mass), normalisation)
     states = states * scale[:, None]
-    at_grid = on_grid(chain, states, omega2, grid - grid[0]).real
+    at_grid = on_grid(chain, states, omega2, places).real
     energies = energies.scaled(scale)
     mass = np.abs(energies.mass)
     model_errors = estimate_model_errors(beam, chain, omega2, energies)
     size = cancelling(energies.size, mass, omega2)
     off = np.abs(energies.stiffness / energies.mass - omega2)
     quadratic = np.transpose([mass, off, size.real]).tolist()
-    rows = [
-        _mode(solved, k, names[k], at_grid[:, column], quadratic[column], model_errors[column])
-        for column, k in enumerate(keep)
-    ]
+    near_zero = NEAR_ZERO * omega2_scale(solved.chain)
+    given = zip(keep, at_grid.swapaxes(0, 1), quadratic, model_errors, strict=True)
+    rows = [_mode(solved, k, names[k], *own, near_zero) for k, *own in given]
     if chain.follows:
         return rows, Solution(chain, omega2, states)
     return with_joint_brackets(rows), Solution(chain, omega2, states)
@@ -228,18 +228,19 @@ def _mode(
     shape: Array,
     quadratic: list[float],
     model_error: float | None,
+    near_zero: float,
 ) -> Mode:
     value, family = solved.eigenvalues[k], solved.chain.family
     (name, number), (mass, off, size) = named, quadratic
     exact = value.omega2 == 0.0 and number == 0
     rounding = 0.0 if exact else ROUNDING * size
-    if np.isnan(mass):  # no shape: as if much cancelled
+    if math.isnan(mass):  # no shape: as if much cancelled
         rounding = 1e3 * ROUNDING * abs(value.omega2)
     moved = value.order - value.omega2
     low, high = value.bracket[0] - rounding, value.bracket[1] + rounding
     half = max(value.omega2 - low, high - value.omega2)
     error = 0.0 if exact else half + float(solved.discretisation[k])
-    reference = max(abs(value.value), 1e-9 * omega2_scale(solved.chain))
+    reference = max(abs(value.value), near_zero)
     growth = _growth(value)
     kind: Kind = "divergent" if value.order < 0 else "elastic" if number else "rigid"
     return Mode(

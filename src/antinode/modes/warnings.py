@@ -46,10 +46,12 @@ LOWEST_DIVERGES = (
 
 def _rotation_warning(beam: Beam) -> str:
     """Say why the rotation of a body that may turn diverges."""
-    k = np.arange(len(beam.x) - 1)
-    ends = [beam.axial_force_at(k, np.full(len(k), t)) for t in (0.0, 0.5, 1.0)]
-    net = float(np.diff(beam.x) @ (ends[0] + 4 * ends[1] + ends[2])) / 6
-    if net > 0 or beam.attachments:
+    net, h = beam.axial_force.sum(axis=1) / 2, beam.x[1:] - beam.x[:-1]
+    if beam.axial_acceleration:
+        k = np.arange(len(h))
+        ends = [beam.axial_force_at(k, np.full(len(k), t)) for t in (0.0, 0.5, 1.0)]
+        net = (ends[0] + 4 * ends[1] + ends[2]) / 6
+    if h @ net > 0 or beam.attachments:
         return ROTATION_DIVERGES
     return LOWEST_DIVERGES
 

@@ -122,7 +122,7 @@ class Chain:
         return self._with_segments(length, lambda values: np.repeat(values, pieces), first)
 
     def cut_at(self, positions: Array) -> Chain:
-        """Return the same chain with a joint at each of the positions [m] as well.
+        """Return the same chain with a joint at each of the ascending positions [m] as well.
 
         Segments that are not cut keep their length to the last bit, however thin they are.
         """
@@ -130,14 +130,15 @@ class Chain:
         after = np.searchsorted(nodes, positions).clip(1, len(nodes) - 1)
         gap = np.minimum(np.abs(nodes[after] - positions), np.abs(positions - nodes[after - 1]))
         new = gap > 1e-12 * nodes[-1]
-        segments = np.arange(len(self.length))
-        owner = np.concatenate([segments, after[new] - 1])
-        start = np.concatenate([np.zeros(len(segments)), positions[new] - nodes[after[new] - 1]])
-        order = np.lexsort((start, owner))
-        owner, start = owner[order], start[order]
-        last = np.diff(owner, append=len(segments)) > 0
-        end = np.where(last, self.length[owner], np.append(start[1:], 0.0))
-        places = np.searchsorted(owner, np.arange(len(nodes)))
+        cut, n = after[new] - 1, len(self.length)
+        pieces = np.bincount(cut, minlength=n) + 1
+        places = np.concatenate([[0], np.cumsum(pieces)])
+        owner = np.repeat(np.arange(n), pieces)
+        start, end = np.zeros(len(owner)), self.length[owner]
+        inside = np.ones(len(owner), dtype=bool)
+        inside[places[:-1]] = False
+        start[inside] = positions[new] - nodes[cut]
+        end[:-1][inside[1:]] = start[inside]
         return self._with_segments(end - start, lambda values: values[owner], places)
 
     def _with_segments(
