@@ -2,8 +2,8 @@
 
 from typing import Literal
 
-from .riccati.arrays import Array, Complex, Integers, Numbers
+from .riccati.arrays import Array, Complex, Integers, Numbers, distinct
 
 Interpolation = Literal["step", "linear", "log"]
 
-__all__ = ["Array", "Complex", "Integers", "Interpolation", "Numbers"]
+__all__ = ["Array", "Complex", "Integers", "Interpolation", "Numbers", "distinct"]

@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arguments import ByValue, numbers, owned
-from antinode.arrays import Array, Integers, Interpolation
+from antinode.arrays import Array, Integers, Interpolation, distinct
 from antinode.errors import InputError
 from antinode.riccati.chain import Chain
 from antinode.riccati.points import Point
@@ -265,7 +265,7 @@ class Beam(ByValue):
 
     def cut_at(self, inside: Sequence[float]) -> Beam:
         """Return the same beam with breakpoints at places inside intervals [m] as well."""
-        x = np.union1d(self.x, inside)
+        x = distinct(np.append(self.x, inside))
         k = np.clip(np.searchsorted(self.x, (x[1:] + x[:-1]) / 2) - 1, 0, len(self.x) - 2)
         size = np.diff(self.x)[k]
         start, end = (x[:-1] - self.x[k]) / size, (x[1:] - self.x[k]) / size

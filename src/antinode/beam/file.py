@@ -24,7 +24,7 @@ from antinode.inputs.columns import (
 from antinode.inputs.explain import validate
 from antinode.inputs.override import override
 from antinode.inputs.reading import COLUMN_UNITS, Tables, naming, read_tables
-from antinode.inputs.units import Frozen, Number
+from antinode.inputs.units import Frozen
 from antinode.text import counted
 
 from .axial import apply_loads
@@ -38,6 +38,7 @@ from .sections.drawn import OTHERS, drawn_beam
 from .sections.material import Material
 from .sections.shapes import DIMENSIONS
 from .sections.table import SectionColumns, check_material
+from .settings import Solve
 from .station_csv import without_hull
 from .tables import AttachmentTables
 
@@ -61,26 +62,6 @@ ALL_COLUMNS = (*COLUMNS, *DIMENSIONS)
 
 
 Share = Annotated[Number, Field(ge=0, le=1)]
-
-
-class Solve(Frozen):
-    """What to compute, and how well."""
-
-    modes: int = Field(6, ge=1, le=500, strict=True, description="elastic modes of each family")
-    tolerance: Annotated[Number, Field(ge=1e-12, le=0.1)] = Field(
-        1e-6, description="largest relative error of a frequency by what varies inside segments"
-    )
-
-    def overridden(self, **given: float | None) -> Solve:
-        """Return the settings with those of the command line that are given.
-
-        Raises
-        ------
-        InputError
-            If one of them is out of range.
-        """
-        told = {key: value for key, value in given.items() if value is not None}
-        return validate(Solve, self.model_dump() | told, "command line")
 
 
 class BeamEnds(Frozen):

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from antinode.arrays import Array, Integers, Interpolation
+from antinode.arrays import Array, Integers, Interpolation, distinct
 
 from . import curves
 from .profile import Profile
@@ -91,7 +91,7 @@ class MassDistribution(Profile):
         kinds = {self.interpolation, other.interpolation}
         if "log" in kinds:
             raise ValueError("masses interpolated by 'log' cannot be added: use step or linear")
-        x = np.union1d(self.x, other.x)
+        x = distinct(np.append(self.x, other.x))
         how: Interpolation = "step" if kinds == {"step"} else "linear"
         return MassDistribution(x, self.between(x) + other.between(x), how)
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, distinct
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.riccati.chain import Chain, omega2_scale
@@ -85,7 +85,7 @@ class Refinement:
         last = self.levels[-1]
         change = last - self.levels[-2]
         spread = np.maximum(np.abs(change) / 64, _LIKELY * np.abs(last))
-        return np.unique(last + change / 16 + spread * _BESIDE[:, None])
+        return distinct((last + change / 16 + spread * _BESIDE[:, None]).ravel())
 
     def met(self, error: Array) -> bool:
         """Tell whether errors of the last values are all within the tolerance."""

@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from .arrays import Array, Integers
+from .arrays import Array, Integers, distinct
 from .frames import (
     determinant,
     displacement_sign,
@@ -198,14 +198,14 @@ def block_starts(chain: Chain, omega2: float) -> Integers:
     phase = np.cumsum(largest_wave_number(chain, omega2) * chain.length)
     first = np.flatnonzero(np.diff(np.floor(phase / law.block_phase), prepend=-1.0))
     inner = [p.node for p in chain.points if 0 < p.node < len(chain.length)]
-    starts: Integers = np.unique(np.concatenate([[0], first[1:], inner]).astype(np.int64))
+    starts = distinct(np.concatenate([[0], first[1:], inner]).astype(np.int64))
     length = np.add.reduceat(chain.length, starts)
     worst = replace(chain, length=length, columns=law.worst(chain.columns, starts))
     unsafe = largest_wave_number(worst, omega2) * worst.length > law.block_limit
     if not np.any(unsafe):
         return starts
     block = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(chain.length)))
-    return np.union1d(starts, np.flatnonzero(unsafe[block]))
+    return distinct(np.append(starts, np.flatnonzero(unsafe[block])))
 
 
 def segment_transfers(

@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from .arrays import Array, Integers
+from .arrays import Array, Integers, distinct
 from .chain import Chain, Evaluation, evaluate, omega2_scale
 
 _MAX_PASSES = 80
@@ -76,7 +76,10 @@ class Samples:
 
     def add(self, omega2: Array) -> None:
         """Evaluate the chain at new points and merge them in."""
-        new = np.setdiff1d(omega2, self.omega2)
+        new = distinct(omega2)
+        if len(self.omega2):
+            at = np.searchsorted(self.omega2, new).clip(max=len(self.omega2) - 1)
+            new = new[self.omega2[at] != new]
         if not len(new):
             return
         values = evaluate(self.chain, new)

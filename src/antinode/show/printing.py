@@ -18,7 +18,6 @@ from rich.text import Text
 
 from antinode.beam.attachments import name_of
 from antinode.modes.result import NOT_MODELLED, ModalResult, Mode
-from antinode.modes.verify import ALLOWED
 from antinode.text import counted, one_line
 
 if TYPE_CHECKING:
@@ -332,6 +331,8 @@ def show_buckling(out: Console, critical: Buckling | None) -> None:
 
 def show_checks(checks: Sequence[Check]) -> None:
     """Print the table of built-in checks and the verdict."""
+    from antinode.modes.verify import ALLOWED
+
     failed = sum(not check.passed for check in checks)
     out = console()
     out.print(fitting((checks_table(checks, brief) for brief in (False, True)), out))

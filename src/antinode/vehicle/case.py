@@ -13,8 +13,8 @@ from pydantic import Field
 from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
-from antinode.beam.file import Solve
 from antinode.beam.limits import check_limits
+from antinode.beam.settings import Solve
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import naming, read_tables

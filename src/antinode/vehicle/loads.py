@@ -24,7 +24,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from antinode.arrays import Array
+from antinode.arrays import Array, distinct
 from antinode.beam.mass import MassDistribution
 from antinode.errors import InputError
 
@@ -173,7 +173,7 @@ class Loads(LoadNumbers[float]):
         x = self.mass_distribution.x
         if self.axial_model == "element_midpoint":
             return x
-        return np.unique(np.concatenate([x, [force.x for force in self.forces]]))
+        return distinct(np.concatenate([x, [force.x for force in self.forces]]))
 
     @cached_property
     def axial_jump(self) -> Array:
