@@ -24,7 +24,7 @@ from antinode.inputs.columns import (
 from antinode.inputs.explain import validate
 from antinode.inputs.override import override
 from antinode.inputs.reading import COLUMN_UNITS, Tables, naming, read_tables
-from antinode.inputs.units import Frozen
+from antinode.inputs.units import Frozen, Number
 from antinode.text import counted
 
 from .axial import apply_loads
