@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from antinode.beam.beam import Beam
-from antinode.beam.file import ALL_COLUMNS, BeamFile, Solve, load_beam
+from antinode.beam.file import ALL_COLUMNS, BeamFile, load_beam
 from antinode.beam.limits import check_limits
+from antinode.beam.settings import Solve
 from antinode.beam.station_csv import hull_of, read_station_csv, without_hull
 from antinode.errors import InputError
 from antinode.inputs.explain import validate

@@ -206,7 +206,10 @@ def _modes_of(
     quadratic = np.transpose([mass, off, size.real]).tolist()
     near_zero = NEAR_ZERO * omega2_scale(solved.chain)
     given = zip(keep, at_grid.swapaxes(0, 1), quadratic, model_errors, strict=True)
-    rows = [_mode(solved, k, names[k], *own, near_zero) for k, *own in given]
+    rows = [
+        _mode(solved, k, names[k], shape, sums, model_error, near_zero)
+        for k, shape, sums, model_error in given
+    ]
     if chain.follows:
         return rows, Solution(chain, omega2, states)
     return with_joint_brackets(rows), Solution(chain, omega2, states)
