@@ -73,6 +73,8 @@ def _attach(beam, nodes, joints, right_slope, K, M):
             if beam.offset_weight:
                 K[at + 1, at + 1] += beam.axial_acceleration * mass * d
         elif type(item).__name__ == "Spring":
+            K[at, at + 1] += item.coupling
+            K[at + 1, at] += item.coupling
             for i, stiffness in enumerate((item.translational, item.rotational)):
                 if np.isinf(stiffness):
                     held.add(at + i)

@@ -58,6 +58,9 @@ class Spring:
         [N/m], zero or positive; `math.inf` holds Y, or X, at zero.
     rotational, torsional : float
         [N m/rad]; `math.inf` holds the slope, or the rotation about the axis, at zero.
+    coupling : float
+        K_xtheta [N], of either sign: the lateral force of a unit slope, and the moment of a unit
+        displacement; not beside an infinite stiffness.
     """
 
     x: float
@@ -65,6 +68,7 @@ class Spring:
     rotational: float = 0.0
     axial: float = 0.0
     torsional: float = 0.0
+    coupling: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -133,7 +137,8 @@ def _moves_with_a_side(joint: Joint, item: Attachment) -> bool:
         turns, twists = item.offset != 0.0 or item.rotary_inertia > 0.0, item.polar_inertia > 0.0
         along = item.mass > 0.0
     elif isinstance(item, Spring | Dashpot):
-        turns, twists, along = item.rotational > 0.0, item.torsional > 0.0, item.axial > 0.0
+        turns = item.rotational > 0.0 or (isinstance(item, Spring) and item.coupling != 0.0)
+        twists, along = item.torsional > 0.0, item.axial > 0.0
     else:
         return False
     parted = zip(
@@ -157,12 +162,22 @@ def check_attachments(attachments: Sequence[Attachment], x: Array) -> None:
         if not x[0] <= item.x <= x[-1]:
             raise InputError(f"{what} is off the beam, which runs from {x[0]:g} to {x[-1]:g} m")
         for name, value in vars(item).items():
-            infinite = isinstance(item, Spring) and value == math.inf
+            infinite = isinstance(item, Spring) and value == math.inf and name != "coupling"
             if not (math.isfinite(value) or infinite) or (value < 0 and name not in _SIGNED):
                 raise InputError(f"{what}: {name} is {value:g}; it must be finite and at least 0")
+        if isinstance(item, Spring) and item.coupling and math.inf in lateral(item):
+            raise InputError(
+                f"{what}: a coupling beside an infinite stiffness; give translational and "
+                "rotational as finite numbers, or leave the coupling out"
+            )
         if isinstance(item, Joint) and item.x in (x[0], x[-1]):
             raise InputError(f"{what} stands at an end; a joint needs beam on both sides")
     check_supports_apart(held_places(attachments), x)
+
+
+def lateral(spring: Spring) -> tuple[float, float]:
+    """Return the stiffness of a spring against displacement and slope."""
+    return spring.translational, spring.rotational
 
 
 def held_places(attachments: Iterable[Attachment]) -> list[float]:
@@ -197,6 +212,7 @@ _UNITS: dict[type, dict[str, str]] = {
         "rotational": "N_m_per_rad",
         "axial": "N_per_m",
         "torsional": "N_m_per_rad",
+        "coupling": "N",
     },
     Joint: {"rotational": "rad_per_N_m", "axial": "m_per_N", "torsional": "rad_per_N_m"},
     Dashpot: {
@@ -223,8 +239,21 @@ def attachment_dict(item: Attachment) -> dict[str, Any]:
     return {"kind": name_of(item), "x_m": item.x, **numbers, **more}
 
 
-_SIGNED = ("x", "offset")
+_SIGNED = ("x", "offset", "coupling")
 _NAMES = {PointMass: "point mass", Spring: "spring", Joint: "joint", Dashpot: "dashpot"}
+
+
+def springs_hold(point: Point) -> tuple[float, tuple[int, ...]]:
+    """Return which displacements a point holds, and how far from it: 0 but for a coupled spring.
+
+    Springs [[k, k_c], [k_c, k_r]] of rank one hold no more than the displacement at k_c/k from
+    their station: they are one spring on a rigid arm.
+    """
+    k, turning, coupling = point.spring, point.rotational_spring, point.coupling
+    if coupling and abs(k * turning - coupling**2) <= ROUNDING * coupling**2:
+        return coupling / k, (0,)
+    springs = (k or coupling, turning or coupling)
+    return 0.0, tuple({*point.holds, *(i for i, stiffness in enumerate(springs) if stiffness)})
 
 
 def gather(
@@ -267,6 +296,7 @@ def _point(k: int, items: list[Attachment], family: Family, acceleration: float)
         **_mass([item for item in items if isinstance(item, PointMass)], family, acceleration),
         spring=finite[0],
         rotational_spring=finite[1] if family.rotary else 0.0,
+        coupling=sum(s.coupling for s in springs) if family.rotary else 0.0,
         holds=tuple(i for i, stiffness in enumerate(stiff) if math.isinf(stiffness)),
         compliance=sum(getattr(j, family.joint) for j in joints),
         dashpot=drag[0],

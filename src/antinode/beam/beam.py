@@ -34,6 +34,7 @@ from .attachments import (
     check_attachments,
     gather,
     on_beam,
+    springs_hold,
 )
 from .checks import (
     LOGARITHMIC,
@@ -458,9 +459,8 @@ class Beam(ByValue):
         law = FAMILIES[family].law
         held = [(0.0, law.ends[left]), (self.length, law.ends[right])]
         for point in points:
-            springs = (point.spring, point.rotational_spring)
-            all_held = {*point.holds, *(i for i, stiffness in enumerate(springs) if stiffness)}
-            held.append((float(self.x[point.node] - self.x[0]), tuple(all_held)))
+            place, holds = springs_hold(point)
+            held.append((float(self.x[point.node] - self.x[0]) + place, holds))
         if law.size == 2:
             return np.zeros((0, 2)) if any(rows for _, rows in held) else np.array([[1.0, 0.0]])
         places = {x for x, components in held if 0 in components}

@@ -10,7 +10,7 @@ import numpy as np
 
 from antinode.errors import InputError
 
-from .attachments import Attachment, Joint, PointMass, beside_joints
+from .attachments import Attachment, Joint, PointMass, Spring, beside_joints
 from .checks import TABLES
 
 if TYPE_CHECKING:
@@ -47,6 +47,8 @@ def _turned(beam: Beam) -> Beam:
         turned = replace(item, x=total - item.x)
         if isinstance(turned, PointMass):
             turned = replace(turned, offset=-turned.offset)
+        elif isinstance(turned, Spring):
+            turned = replace(turned, coupling=-turned.coupling)
         items.append(turned)
     return replace(
         beam,

@@ -48,9 +48,16 @@ class SpringTable(Frozen):
         0.0, description="about the axis [N m/rad]; inf holds it"
     )
 
+    coupling: Annotated[float, Unit("N"), Field(allow_inf_nan=False)] = Field(
+        0.0,
+        description="K_xtheta, lateral force of a unit slope and moment of a unit displacement "
+        "[N], either sign: a pile head, soil",
+    )
+
     @model_validator(mode="after")
     def _check_any(self) -> Self:
-        if not (self.translational or self.rotational or self.axial or self.torsional):
+        springs = (self.translational, self.rotational, self.axial, self.torsional)
+        if not any(springs) and not self.coupling:
             raise ValueError(
                 "all stiffnesses are 0; give translational, rotational, axial or torsional, inf "
                 "for a support"

@@ -45,6 +45,7 @@ ATTACHED = {
         "rotational": "N m/rad",
         "axial": "N/m",
         "torsional": "N m/rad",
+        "coupling": "N",
     },
     "joints": {"x": "m", "rotational": "rad/(N m)", "axial": "m/N", "torsional": "rad/(N m)"},
     "dashpots": {

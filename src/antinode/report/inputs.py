@@ -247,8 +247,9 @@ _KINDS: tuple[tuple[type, str, tuple[str, ...], tuple[str, ...]], ...] = (
             "rotational [N m/rad]",
             "axial [N/m]",
             "torsional [N m/rad]",
+            "coupling [N]",
         ),
-        ("translational", "rotational", "axial", "torsional"),
+        ("translational", "rotational", "axial", "torsional", "coupling"),
     ),
     (
         Joint,

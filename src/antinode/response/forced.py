@@ -139,7 +139,12 @@ class Forced:
         jump = right - left
         point = next((p for p in self.chain.points if p.node == node), Point(node))
         free = replace(
-            point, spring=0.0, rotational_spring=0.0, dashpot=0.0, rotational_dashpot=0.0
+            point,
+            spring=0.0,
+            rotational_spring=0.0,
+            coupling=0.0,
+            dashpot=0.0,
+            rotational_dashpot=0.0,
         )
         jump = jump - (law.load(free, lanes.omega2) - np.eye(law.size)) @ left
         if node in self.loads.at_nodes:

@@ -205,7 +205,7 @@ class _Shown:
         """Return what the ground does to the beam at a node, by the jump there and at an end."""
         law, last = self.chain.law, len(self.chain.length)
         point = next((p for p in self.chain.points if p.node == node), Point(node))
-        free = replace(point, spring=0.0, rotational_spring=0.0)
+        free = replace(point, spring=0.0, rotational_spring=0.0, coupling=0.0)
         zero = np.zeros_like(self.states[0])
         left = self.left(node) if node else zero
         right = self.states[node] if node < last else zero

@@ -229,6 +229,9 @@ class _Sweep:
         stiff = replace(point, spring=spring, rotational_spring=turning)
         jump = unit_jump(law, 0)[:, None] * self.loads.ground
         f += spring[:, None, None] * jump / self.units[:, :, None]
+        if point.coupling:
+            turn = unit_jump(law, 1)[:, None] * self.loads.ground
+            f += point.coupling * turn / self.units[:, :, None]
         self._pass(self._scaled(law.load(stiff, self.lanes.omega2)), f)
 
     def _pass_segments(self, node: int, end: int) -> None:

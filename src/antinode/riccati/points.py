@@ -2,10 +2,11 @@
 
 A point changes the state between its two sides. From the energy of each (docs/theory/beam.md), in
 bending, for a mass m_p whose centre lies d to the right of the node and has the inertia J, springs
-to ground k and k_r, the mass' own axial force P along +x, and a joint of rotational compliance f::
+to ground k, k_r and, coupling both, k_c, the mass' own axial force P along +x, and a joint of
+rotational compliance f::
 
-    Q+ = Q- + omega^2 m_p (Y + d theta) - k Y
-    M+ = M- - omega^2 [m_p d (Y + d theta) + J theta] + k_r theta + P d theta
+    Q+ = Q- + omega^2 m_p (Y + d theta) - k Y - k_c theta
+    M+ = M- - omega^2 [m_p d (Y + d theta) + J theta] + k_c Y + k_r theta + P d theta
     theta+ = theta- + f M
 
 and along one freedom u with the force s K u' (s is -1 for a bar, 1 for a shaft)
@@ -38,6 +39,8 @@ class Point:
         of that freedom, [kg m^2] in torsion.
     spring, rotational_spring : float
         k [N/m] and k_r [N m/rad]; the spring is [N m/rad] in torsion.
+    coupling : float
+        k_c [N]: the lateral force of a unit slope, and the moment of a unit displacement.
     holds : tuple of int
         Displacements held at zero by supports: 0 (Y, X, phi), 1 (theta).
     compliance : float
@@ -55,6 +58,7 @@ class Point:
     inertia: float = 0.0
     spring: float = 0.0
     rotational_spring: float = 0.0
+    coupling: float = 0.0
     holds: tuple[int, ...] = ()
     compliance: float = 0.0
     own_load: float = 0.0
@@ -69,7 +73,8 @@ class Point:
     @property
     def loads(self) -> bool:
         """Whether a mass or a finite spring acts here."""
-        values = (self.mass, self.inertia, self.spring, self.rotational_spring)
+        springs = (self.spring, self.rotational_spring, self.coupling)
+        values = (self.mass, self.inertia, *springs)
         return any(value != 0.0 for value in values)
 
 
@@ -78,8 +83,8 @@ def lateral_load(point: Point, omega2: Array) -> Array:
     T = np.tile(np.eye(4, dtype=np.result_type(omega2, 1.0)), (len(omega2), 1, 1))
     m, d, J = point.mass, point.offset, point.inertia
     T[:, 3, 0] = omega2 * m - point.spring
-    T[:, 3, 1] = omega2 * m * d
-    T[:, 2, 0] = -omega2 * m * d
+    T[:, 3, 1] = omega2 * m * d - point.coupling
+    T[:, 2, 0] = -omega2 * m * d + point.coupling
     T[:, 2, 1] = -omega2 * (m * d * d + J) + point.rotational_spring + point.own_load * d
     return T
 
@@ -103,7 +108,8 @@ def lateral_energies(point: Point, state: Array, last: bool) -> tuple[Array, Arr
     turn = theta if last else theta - point.compliance * M
     inertia = point.mass * (Y + point.offset * turn) ** 2 + point.inertia * turn**2
     rotational = point.rotational_spring + point.own_load * point.offset
-    return inertia, point.spring * Y**2 + rotational * turn**2 + point.compliance * M**2
+    springs = point.spring * Y**2 + 2 * point.coupling * Y * turn + rotational * turn**2
+    return inertia, springs + point.compliance * M**2
 
 
 def wave_load(point: Point, omega2: Array, sign: float) -> Array:

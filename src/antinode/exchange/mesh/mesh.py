@@ -14,6 +14,7 @@ from antinode.beam.attachments import Attachment, Dashpot, Joint, PointMass, Spr
 from antinode.beam.beam import Beam
 from antinode.beam.ends import AxialEnd, Ends
 from antinode.beam.families import BENDING, FAMILIES, LONGITUDINAL, TORSION, tells
+from antinode.errors import InputError
 
 Item = TypeVar("Item", PointMass, Spring, Joint)
 
@@ -124,6 +125,11 @@ class Mesh:
     def _all_springs(self) -> list[tuple[int, int, float]]:
         rows = []
         for node, item in self.attached(Spring):
+            if item.coupling:
+                raise InputError(
+                    f"the spring at x = {item.x:g} m couples displacement and slope; a deck of "
+                    "springs cannot hold that: leave its coupling out, or write a .toml"
+                )
             stiffness = {AXIAL: item.axial, LATERAL: item.translational, TURN: item.rotational}
             if self.twists:
                 stiffness[TWIST] = item.torsional

@@ -22,6 +22,7 @@ from .workspace import (
     CARRIED,
     CENTRAL,
     COMPLIANCE,
+    COUPLING,
     COUNT,
     FIRST_MOMENT,
     FLEXIBILITY,
@@ -135,12 +136,14 @@ def pass_point(point, state, sign):
             a, b, e, d, f = 0.0, 0.0, 0.0, -a, -b
         elif hold_theta:
             a, b, e, d, f = 0.0, a, 0.0, 0.0, d
-        across = omega2 * point[FIRST_MOMENT]
+        moment, coupling = omega2 * point[FIRST_MOMENT], point[COUPLING]
+        across = moment - coupling
         along = omega2 * point[MASS] - point[SPRING]
         turn = point[TURNING] - omega2 * point[ROTARY]
         own = (
             omega2 * point[MASS] * (point[TURNING] - omega2 * point[CENTRAL]) - point[SPRING] * turn
         )
+        own += coupling * (coupling - 2.0 * moment)
         f += turn * d - 2.0 * across * e - along * b - own * a
         b, e, d = b + turn * a, e + across * a, d - along * a
         sign[lane] = -before if hold_Y and not hold_theta else before

@@ -52,13 +52,13 @@ def _bending_point(p: Point, L: float, EI0: float, m0: float) -> tuple[float, ..
         *(p.mass / (m0 * L), p.mass * p.offset / (m0 * L**2), inertia / (m0 * L**3)),
         *(p.spring * L**3 / EI0, turning * L / EI0),
         *(float(0 in p.holds), float(1 in p.holds), p.compliance * EI0 / L),
-        p.inertia / (m0 * L**3),
+        *(p.inertia / (m0 * L**3), p.coupling * L**2 / EI0),
     )
 
 
 def _wave_point(p: Point, L: float, K0: float, m0: float) -> tuple[float, ...]:
     mass, spring = p.mass / (m0 * L), p.spring * L / K0
-    return mass, 0.0, 0.0, spring, 0.0, 0.0, 0.0, p.compliance * K0 / L, 0.0
+    return mass, 0.0, 0.0, spring, 0.0, 0.0, 0.0, p.compliance * K0 / L, 0.0, 0.0
 
 
 _OF_WAVES = Form(_WAVE, _WAVE, wave.ENDS, _wave_point, supports=False, shapes=False)

@@ -26,6 +26,7 @@ from .search import find_roots
 from .workspace import (
     CENTRAL,
     COMPLIANCE,
+    COUPLING,
     FIRST_MOMENT,
     HOLDS_THETA,
     HOLDS_Y,
@@ -231,6 +232,7 @@ def _scale_points(nodes, L, m0, EI0):
         scaled[CENTRAL] = point[CENTRAL] / (mass * L * L)
         scaled[SPRING] = point[SPRING] / spring
         scaled[TURNING] = point[TURNING] / (spring * L * L)
+        scaled[COUPLING] = point[COUPLING] / (spring * L)
         scaled[HOLDS_Y], scaled[HOLDS_THETA] = point[HOLDS_Y], point[HOLDS_THETA]
         scaled[COMPLIANCE] = point[COMPLIANCE] / (L / EI0)
 

@@ -46,9 +46,10 @@ CARRIED = 5
 STATE = 8 * LANES
 
 # Columns of the points, dimensionless.
-MASS, FIRST_MOMENT, ROTARY, SPRING, TURNING, HOLDS_Y, HOLDS_THETA, COMPLIANCE, CENTRAL = range(9)
+MASS, FIRST_MOMENT, ROTARY, SPRING, TURNING, HOLDS_Y, HOLDS_THETA, COMPLIANCE = range(8)
+CENTRAL, COUPLING = range(8, 10)
 """Among them m d, the inertia about the node, and that about the mass's own centre."""
-POINT = 9
+POINT = 10
 
 # Columns of the samples of a search.
 AT, BELOW, VALUE, SHIFT, CARRIED_FROM = range(5)
