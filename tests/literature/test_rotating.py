@@ -11,6 +11,9 @@ import numpy as np
 import pytest
 
 import antinode as an
+from antinode.beam.attachments import PointMass
+from antinode.beam.rotation import Rotation, apply_rotation
+from antinode.exchange.outputs import write_beam
 from literature.published import check_printed, extrapolated, last_digit, omegas
 
 CANTILEVER = an.Ends("clamped", "free")
@@ -89,3 +92,110 @@ def test_hodges_rutkowski_1981_tapered(eta, printed):
     """
     modes = len(printed.split())
     check_printed(extrapolated(lambda n: omegas(tapered(float(eta), n), modes), 100), printed)
+
+
+def blade(eta, plane, axis=0.0, c=0.0, **more):
+    x = np.array([0.0, 1.0])
+    m = EI = 1 - c * x
+    beam = an.Beam.from_stations(
+        x, m, EI, interpolation="linear", ends=an.Ends("clamped", "free"), **more
+    )
+    return apply_rotation(beam, Rotation(eta, axis, plane))
+
+
+@pytest.mark.parametrize(("eta", "printed"), rows(WRIGHT)[1:])
+def test_wright_by_the_rate_alone(eta, printed):
+    """The same table by `[beam.rotation]`: N is the polynomial that it is."""
+    found = np.sqrt(an.natural_frequencies(blade(float(eta), "out_of_plane"), 3).omega2)
+    check_printed(found, printed)
+
+
+def test_in_the_plane_of_rotation_a_beam_is_softer():
+    """omega^2 in plane = omega^2 out of plane - Omega^2, exactly; masses included."""
+    for axis in (0.0, -0.5):
+        flap, lag = (
+            an.natural_frequencies(blade(3.0, plane, axis), 3, tolerance=1e-9).omega2
+            for plane in ("out_of_plane", "in_plane")
+        )
+        assert lag == pytest.approx(flap - 9.0, rel=1e-8)
+    tip = [
+        apply_rotation(
+            an.Beam.from_stations([0, 1], 1.0, 1.0, ends=CANTILEVER).with_attachments(
+                PointMass(1.0, 0.7)
+            ),
+            Rotation(3.0, -0.2, plane),
+        )
+        for plane in ("out_of_plane", "in_plane")
+    ]
+    flap, lag = (an.natural_frequencies(beam, 3, tolerance=1e-9).omega2 for beam in tip)
+    assert lag == pytest.approx(flap - 9.0, rel=1e-8)
+
+
+def test_the_centrifugal_force_is_the_integral():
+    """m = 1 - x/2, axis at -e: N = -eta^2 int over the rest of m (x + e); a mass at the tip."""
+    beam = an.Beam.from_stations(
+        [0, 1], [1, 0.5], 1.0, interpolation="linear", ends=CANTILEVER
+    ).with_attachments(PointMass(1.0, 0.7))
+    turned = apply_rotation(beam, Rotation(2.0, -0.3))
+    s = np.polynomial.Polynomial([0, 1])
+    pull = (4 * (1 - 0.5 * s) * (s + 0.3)).integ()
+    for t in (0.0, 0.4, 1.0):
+        exact = -(pull(1) - pull(t)) - 4 * 0.7 * 1.3
+        found = turned.axial_force_at(np.array([0]), np.array([t]))[0]
+        assert found == pytest.approx(exact, rel=1e-14)
+
+
+ROTOR = """
+[beam]
+interpolation = "linear"
+[beam.stations]
+x = [0, 20]
+width = ["300 mm", "150 mm"]
+height = ["1.2 m", "400 mm"]
+[beam.material]
+youngs_modulus = "70 GPa"
+density = "2700 kg/m^3"
+[beam.ends]
+left = "clamped"
+[beam.rotation]
+rate = "30 rpm"
+axis = "-1.5 m"
+plane = "in_plane"
+[[beam.point_masses]]
+x = 12
+mass = "80 kg"
+"""
+
+
+def test_rotation_in_a_file(tmp_path):
+    path = tmp_path / "blade.toml"
+    path.write_text(ROTOR)
+    beam = an.load_beam(path).beam()
+    assert beam.rotation == Rotation(np.pi, -1.5, "in_plane")
+    flap = an.load_beam(path, ["beam.rotation.plane=out_of_plane"]).beam()
+    f, g = (an.natural_frequencies(b, 2, tolerance=1e-9).omega2 for b in (flap, beam))
+    assert g == pytest.approx(f - np.pi**2, rel=1e-4)  # but for rotary inertia
+    write_beam(tmp_path / "again.toml", beam, "toml")
+    again = an.load_beam(tmp_path / "again.toml").beam()
+    assert again.rotation == beam.rotation
+    assert an.natural_frequencies(again, 2).omega2 == pytest.approx(g, rel=1e-7)
+    assert again.drawing == beam.drawing
+    with pytest.raises(an.InputError, match=r"write a \.toml"):
+        write_beam(tmp_path / "again.csv", beam, "csv")
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("beam.ends.right_axial=fixed", "2 places hold"),
+        ("beam.ends.left_axial=free", "0 places hold"),
+        ("beam.point_masses.0.offset=1", "offset"),
+        ("beam.rotation.rate=-3", "greater than 0"),
+        ("beam.rotation.plane=sideways", "in_plane"),
+    ],
+)
+def test_rotation_is_refused_in_a_sentence(change, words, tmp_path):
+    path = tmp_path / "blade.toml"
+    path.write_text(ROTOR)
+    with pytest.raises(an.InputError, match=words):
+        an.load_beam(path, [change]).beam()

@@ -155,15 +155,21 @@ def on_beam(place: float, x: Array) -> float:
     return place
 
 
-def check_attachments(attachments: Sequence[Attachment], x: Array) -> None:
-    """Raise InputError unless every attachment has values that make sense and lies on the beam."""
+def check_attachments(
+    attachments: Sequence[Attachment], x: Array, *, softened: bool = False
+) -> None:
+    """Raise InputError unless every attachment has values that make sense and lies on the beam.
+
+    Springs of a beam that its rotation softens may be negative.
+    """
+    signed = (*_SIGNED, "translational") if softened else _SIGNED
     for item in attachments:
         what = f"the {_NAMES[type(item)]} at x = {item.x:g} m"
         if not x[0] <= item.x <= x[-1]:
             raise InputError(f"{what} is off the beam, which runs from {x[0]:g} to {x[-1]:g} m")
         for name, value in vars(item).items():
             infinite = isinstance(item, Spring) and value == math.inf and name != "coupling"
-            if not (math.isfinite(value) or infinite) or (value < 0 and name not in _SIGNED):
+            if not (math.isfinite(value) or infinite) or (value < 0 and name not in signed):
                 raise InputError(f"{what}: {name} is {value:g}; it must be finite and at least 0")
         if isinstance(item, Spring) and item.coupling and math.inf in lateral(item):
             raise InputError(

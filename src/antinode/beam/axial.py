@@ -76,7 +76,7 @@ def apply_loads(beam: Beam, loads: AxialLoads) -> Beam:
     at_nodes = np.zeros(len(beam.x))
     for force in loads.point_forces:
         at_nodes[int(np.argmin(np.abs(beam.x - force.x)))] += force.force
-    held = _axial_supports(beam)
+    held = axial_supports(beam)
     if not np.any(held):
         if loads.acceleration:
             raise InputError(
@@ -95,7 +95,7 @@ def apply_loads(beam: Beam, loads: AxialLoads) -> Beam:
     )
 
 
-def _axial_supports(beam: Beam) -> Array:
+def axial_supports(beam: Beam) -> Array:
     """Return the axial stiffness to ground at every breakpoint [N/m], infinite at fixed ends."""
     stiffness = np.zeros(len(beam.x))
     left, right = beam.ends.of(LONGITUDINAL)

@@ -54,6 +54,7 @@ from .representation import make_chain
 from .reversal import reversed_beam
 
 if TYPE_CHECKING:
+    from .rotation import Rotation
     from .sections.drawing import Drawing
 
 
@@ -113,6 +114,9 @@ class Beam(ByValue):
     drawing : Drawing, optional
         What mass and stiffness follow from (`beam.sections`), for those who show or write the beam;
         the solver reads the tables alone.
+    rotation : Rotation, optional
+        Whose centrifugal force and softening stand in the tables (`beam.rotation`): those of a beam
+        that bends in the plane of rotation may be softer than nothing.
 
     Raises
     ------
@@ -148,6 +152,7 @@ class Beam(ByValue):
     end_force: tuple[float, float] | None = None
     name: str = "beam"
     drawing: Drawing | None = None
+    rotation: Rotation | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "x", owned("x", self.x))

@@ -35,12 +35,13 @@ def check(beam: Beam) -> None:
     for name in TABLES:
         values = getattr(beam, name)
         if values is not None:
-            _check_table(name, values, n)
+            if not (name == "foundation_stiffness" and beam.rotation is not None):
+                _check_table(name, values, n)
             _check_logarithm(beam, name, values)
     _check_complete(beam)
     check_shear(beam)
     if beam.attachments:
-        check_attachments(beam.attachments, beam.x)
+        check_attachments(beam.attachments, beam.x, softened=beam.rotation is not None)
         _check_supports(beam)
     if any(beam.ends.follow):
         _check_followers(beam)

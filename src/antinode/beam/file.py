@@ -34,6 +34,7 @@ from .curves import total
 from .ends import AxialEnd, End, Ends, TorsionEnd
 from .limits import check_limits
 from .parts import MassTable, check_on_body
+from .rotation import apply_rotation
 from .sections.drawn import OTHERS, drawn_beam
 from .sections.material import Material
 from .sections.shapes import DIMENSIONS
@@ -272,7 +273,10 @@ class BeamFile(Frozen):
         beam = self._bare().with_attachments(*self.table.attachments())
         for part in self.table.masses:
             beam = _with_part(beam, part)
-        return beam if self.table.loads is None else apply_loads(beam, self.table.loads.loads())
+        if self.table.loads is not None:
+            beam = apply_loads(beam, self.table.loads.loads())
+        turning = self.table.rotation
+        return beam if turning is None else apply_rotation(beam, turning.rotation())
 
     def _bare(self) -> Beam:
         """Return the beam without attachments, further masses and loads."""

@@ -62,7 +62,7 @@ def check_limits(beam: Beam) -> None:
     for name in dict.fromkeys(read):
         values = getattr(beam, name)
         if values is not None and name != "axial_force":
-            counted = values[np.isfinite(values) & (values != 0)]
+            counted = np.abs(values[np.isfinite(values) & (values != 0)])
             if len(counted):
                 _check_property(name, counted, name not in ALLOWED)
     _check_point_masses(beam)

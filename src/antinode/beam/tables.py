@@ -10,6 +10,7 @@ from antinode.inputs.units import Acceleration, Force, Frozen, Length, Mass, Uni
 
 from .attachments import Attachment, Dashpot, Joint, PointMass, Spring
 from .axial import AxialLoads, PointForce
+from .rotation import Plane, Rotation
 
 AxialStiffness = Annotated[float, Unit("N/m"), Field(ge=0)]
 RotationalStiffness = Annotated[float, Unit("N m/rad"), Field(ge=0)]
@@ -137,6 +138,25 @@ class LoadsTable(Frozen):
         return AxialLoads(self.gravity, self.acceleration, forces, self.offset_weight)
 
 
+class RotationTable(Frozen):
+    """Rotation about an axis across the beam, as of a blade: `[beam.rotation]`."""
+
+    rate: Annotated[float, Unit("rad/s"), Field(gt=0)] = Field(
+        description="Omega, a text such as '12 rpm' too [rad/s]"
+    )
+    axis: Length = Field(
+        0.0, description="x of the axis [m]; minus the hub's radius of a blade from x = 0"
+    )
+    plane: Plane = Field(
+        "out_of_plane",
+        description="of bending: out_of_plane (flap), or in_plane (lag), softer by m Omega^2",
+    )
+
+    def rotation(self) -> Rotation:
+        """Return it as the statics want it."""
+        return Rotation(**vars(self))
+
+
 class AttachmentTables(Frozen):
     """What a beam carries and how it is loaded; the base of the table `[beam]`."""
 
@@ -147,6 +167,9 @@ class AttachmentTables(Frozen):
         (), description="dampers to ground: for responses, not for undamped modes"
     )
     loads: LoadsTable | None = Field(None, description="axial loads")
+    rotation: RotationTable | None = Field(
+        None, description="about an axis across the beam: centrifugal force, and softening"
+    )
 
     def attachments(self) -> list[Attachment]:
         """Return all masses, springs, joints and dashpots as the beam wants them."""

@@ -19,6 +19,7 @@ from antinode.beam.axial import AxialLoads, apply_loads
 from antinode.beam.beam import Beam
 from antinode.beam.families import LONGITUDINAL
 from antinode.beam.file import BeamFile
+from antinode.beam.rotation import at_rest
 from antinode.beam.station_csv import without_hull
 from antinode.inputs.explain import validate
 from antinode.inputs.toml_writing import toml_text
@@ -60,6 +61,9 @@ def beam_tables(beam: Beam, hull: Hull | None = None) -> tuple[dict[str, Any], t
 
     With `hull` its stations have columns that a beam file does not know.
     """
+    if beam.rotation is not None:
+        tables, notes = beam_tables(at_rest(beam), hull)
+        return tables | {"rotation": vars(beam.rotation)}, notes
     plain, loads = _split(beam)
     tables, notes = _tables(beam, plain, loads, hull)
     if loads and not _has_its_force(beam, tables):

@@ -19,7 +19,7 @@ from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
 from antinode.beam.file import COLUMNS
 from antinode.beam.sections.material import Material
-from antinode.errors import AntinodeError
+from antinode.errors import AntinodeError, InputError
 
 from .drawn import Drawn, drawn
 
@@ -94,6 +94,10 @@ def tabulate(beam: Beam) -> Stations:
         Its attachments and ends are no part of the table.
     """
     notes = []
+    if beam.rotation is not None and beam.rotation.plane == "in_plane":
+        raise InputError(
+            "no table holds the softening of a beam that rotates in its own plane; write a .toml"
+        )
     if beam.axial_acceleration != 0 and bool(np.any(np.ptp(beam.mass_per_length, axis=1))):
         notes.append(_say_curved(beam, with_straight_force(beam)))
     beam = with_straight_force(beam)
