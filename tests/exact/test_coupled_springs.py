@@ -9,7 +9,8 @@ from mpmath import cos, cosh, findroot, mp, mpf, sin, sinh
 
 import antinode as an
 from antinode.beam.attachments import Joint, PointMass, Spring
-from antinode.riccati.chain import count_below
+from antinode.riccati.chain import count_below, evaluate
+from antinode.riccati.lanes import calls
 from exact.test_counting_attachments import STATIONS, draw
 
 
@@ -32,6 +33,10 @@ def test_counts_between_the_eigenvalues(seed):
     points = np.append(middle[wide], values[0] - 0.05 * scale)
     expected = np.append(np.arange(1, 8)[wide], 0)
     np.testing.assert_array_equal(count_below(beam.chain("bending"), points), expected)
+    compiled = calls.evaluate(beam.chain("bending"), points)
+    readable = evaluate(beam.chain("bending"), points)
+    np.testing.assert_array_equal(compiled.below, expected)
+    assert np.sign(compiled.characteristic).tolist() == np.sign(readable.characteristic).tolist()
 
 
 K, TURNING, COUPLING = 7.0, 2.0, -3.0

@@ -3,8 +3,8 @@
 At the rate Omega about an axis at x_a the body force m Omega^2 (x - x_a) along +x makes N,
 ``dN/dx = m Omega^2 (x - x_a)``. In the plane of rotation it turns with the displacement: its
 lateral part m Omega^2 Y is that of a foundation of the stiffness -m Omega^2. Out of the plane it
-keeps its direction. Left out are Coriolis forces, which couple bending and stretching, and rho I Omega^2, by
-which sections that turn out of the plane soften a beam of Timoshenko.
+keeps its direction. Left out are Coriolis forces, which couple bending and stretching, and rho I
+Omega^2, by which sections that turn out of the plane soften a beam of Timoshenko.
 """
 
 from __future__ import annotations

@@ -17,7 +17,6 @@ import numpy as np
 
 from antinode.arguments import ByValue, whole, within
 from antinode.arrays import Array, Integers
-from antinode.beam.attachments import Spring
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FAMILIES
 from antinode.beam.limits import out_of_range_is_an_error
@@ -155,9 +154,7 @@ def _by_modes(beam: Beam, modes: int, tolerance: float, backend: BackendName) ->
 
 def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Frequencies | None:
     """Solve with steps halved until two extrapolated results agree; None where that fails."""
-    coupled = any(isinstance(item, Spring) and item.coupling for item in beam.attachments)
-    known = not (beam.is_curved or coupled or FAMILIES[BENDING].used(beam))
-    if not known or any(beam.following()):
+    if beam.is_curved or FAMILIES[BENDING].used(beam) or any(beam.following()):
         return None
     held: tuple[str, str, tuple[Point, ...]] = beam.ends.left, beam.ends.right, ()
     rigid, acceleration, mass_left = rigid_modes_of(beam.ends, BENDING), 0.0, _NOT_READ
