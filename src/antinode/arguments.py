@@ -30,6 +30,8 @@ def whole(name: str, value: object, most: int, what: str = "") -> int:
         If it is no whole number (2.5, but also 3.0, as everywhere in Python), or out of range.
     """
     try:
+        if isinstance(value, bool | np.bool_):
+            raise TypeError("a truth value counts nothing")
         number = index(value)  # type: ignore[arg-type]
     except TypeError as error:
         raise InputError(

@@ -12,6 +12,7 @@ from antinode import (
     solve_many,
     solve_modes,
 )
+from antinode.beam.attachments import PointMass
 
 ONE = np.ones(3)
 X = np.array([0.0, 0.4, 1.0])
@@ -164,3 +165,21 @@ def test_families_that_were_not_solved_are_named():
     assert result.family("torsion") == ()
     with pytest.raises(InputError, match="allowed are 'bending'"):
         result.family("Bending")
+
+
+@pytest.mark.parametrize("problem", ["beam.toml", None, 5])
+@pytest.mark.parametrize("solve", [solve_modes, natural_frequencies])
+def test_what_is_no_beam_is_refused(problem, solve):
+    with pytest.raises(InputError, match="a Beam or a case is wanted"):
+        solve(problem, 1)
+
+
+def test_a_truth_value_is_no_count():
+    with pytest.raises(InputError, match="whole number"):
+        solve_modes(Beam.from_stations([0, 1], 1.0, 1.0), True)
+
+
+@pytest.mark.parametrize("item", ["mass", [PointMass(0.5, 1.0)], PointMass("0.5", 1.0), None])
+def test_what_no_beam_carries_is_refused(item):
+    with pytest.raises(InputError, match=r"carries|give a number"):
+        Beam.from_stations([0, 1], 1.0, 1.0).with_attachments(item)

@@ -13,6 +13,7 @@ import numpy as np
 from antinode.arrays import Array
 from antinode.errors import InputError
 from antinode.riccati.points import Point
+from antinode.text import short
 
 from .families import FAMILIES, Family, FamilyName
 from .profile import ROUNDING
@@ -145,6 +146,19 @@ def _moves_with_a_side(joint: Joint, item: Attachment) -> bool:
         (joint.rotational, joint.axial, joint.torsional), (turns, along, twists), strict=True
     )
     return any(compliance > 0.0 and moves for compliance, moves in parted)
+
+
+def check_kinds(items: Iterable[object]) -> None:
+    """Raise InputError unless every one of some things can be attached, with numbers in it."""
+    for item in items:
+        if not isinstance(item, Attachment):
+            raise InputError(
+                f"{short(item)} is nothing that a beam carries; give each PointMass, Spring or "
+                "Joint as an argument of its own"
+            )
+        for name, value in vars(item).items():
+            if isinstance(value, str | bytes) or not np.isscalar(value):
+                raise InputError(f"the {name_of(item)}: {name} is {short(value)}; give a number")
 
 
 def on_beam(place: float, x: Array) -> float:

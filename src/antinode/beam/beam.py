@@ -32,6 +32,7 @@ from .attachments import (
     Joint,
     PointMass,
     check_attachments,
+    check_kinds,
     gather,
     on_beam,
     springs_hold,
@@ -287,6 +288,7 @@ class Beam(ByValue):
 
     def with_attachments(self, *attachments: Attachment) -> Beam:
         """Return the beam with point masses, springs and joints added, and breakpoints for them."""
+        check_kinds(attachments)
         attachments = tuple(replace(item, x=on_beam(item.x, self.x)) for item in attachments)
         check_attachments(attachments, self.x)
         beam = self.with_breakpoints([item.x for item in attachments])

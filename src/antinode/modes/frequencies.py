@@ -30,7 +30,7 @@ from .brackets import share_brackets
 from .hertz import error_hz, hertz
 from .result import ModalResult
 from .rigid import rigid_modes, rigid_modes_of
-from .solve import HasBeam, solve_modes
+from .solve import HasBeam, beam_of, solve_modes
 
 _WIDTH = 0.98e-10
 _MODES_PER_REFINEMENT = 8  # that the coarsest steps are meant for
@@ -136,7 +136,7 @@ def natural_frequencies(
 
 @out_of_range_is_an_error()
 def _beam_of(problem: HasBeam) -> Beam:
-    return problem.beam()
+    return beam_of(problem)
 
 
 def _by_modes(beam: Beam, modes: int, tolerance: float, backend: BackendName) -> Frequencies:

@@ -25,6 +25,7 @@ from antinode.errors import ComputationError, InputError
 from antinode.riccati.chain import Chain, omega2_scale
 from antinode.riccati.roots import Eigenvalue
 from antinode.riccati.shapes import Energies, split_for
+from antinode.text import short
 
 from .backends import Backend, BackendName, choose, for_one
 from .brackets import ROUNDING, cancelling
@@ -93,10 +94,22 @@ def solve_modes(
     tolerance = within("tolerance", tolerance, 1e-12, 0.1, " (relative)")
     choice("normalisation", normalisation, Normalisation)
     solver = solver_of(method, choose(backend))
-    beam = problem if isinstance(problem, Beam) else problem.beam()
+    beam = beam_of(problem)
     chosen = beam.families if families is None else _chosen(families)
     found = _solve_families(beam, chosen, modes, tolerance, solver, method, normalisation, unloaded)
     return _with_notes(found, problem)
+
+
+def beam_of(problem: Beam | HasBeam) -> Beam:
+    """Return the beam of a problem, or say that there is none."""
+    if isinstance(problem, Beam):
+        return problem
+    if not hasattr(problem, "beam"):
+        raise InputError(
+            f"the problem is {short(problem)}; a Beam or a case is wanted, such as "
+            "load_beam('beam.toml') or load_case('case.toml')"
+        )
+    return problem.beam()
 
 
 def _with_notes(result: ModalResult, problem: Beam | HasBeam) -> ModalResult:
@@ -157,7 +170,7 @@ def solve_one(problem: Beam | HasBeam, modes: int = 6, **settings: Any) -> Modal
     A small one is solved by numpy, so that a fresh install answers before anything is compiled. An
     interval in which something varies counts as the segments of its first three representations.
     """
-    beam = problem if isinstance(problem, Beam) else problem.beam()
+    beam = beam_of(problem)
     segments = max(int(np.sum(np.where(beam.varies(f), 14, 1))) for f in beam.families)
     found = solve_modes(beam, modes, backend=for_one(segments, modes), **settings)
     return _with_notes(found, problem)
