@@ -183,3 +183,8 @@ def test_a_truth_value_is_no_count():
 def test_what_no_beam_carries_is_refused(item):
     with pytest.raises(InputError, match=r"carries|give a number"):
         Beam.from_stations([0, 1], 1.0, 1.0).with_attachments(item)
+
+
+def test_one_length_is_not_that_of_several_segments():
+    with pytest.raises(InputError, match="shapes"):
+        BeamBatch([1.0], [1.0], [1.0], [1.0, 2.0])

@@ -192,10 +192,11 @@ def _common_shape(tables: dict[str, Array]) -> tuple[int, int]:
     """Return how many beams and segments the arrays of a batch describe."""
     arrays = tables.values()
     rows, n = max(map(_rows, arrays)), max(v.shape[-1] if v.ndim else 1 for v in arrays)
-    for values in arrays:
+    for name, values in tables.items():
         columns = values.shape[-1] if values.ndim else 1
-        if values.ndim > 2 or _rows(values) not in (1, rows) or columns not in (1, n) or not n:
-            told = ", ".join(f"{name} {v.shape}" for name, v in tables.items())
+        apart = columns not in (1, n) or (name == "length" and values.ndim and columns != n)
+        if values.ndim > 2 or _rows(values) not in (1, rows) or apart or not n:
+            told = ", ".join(f"{key} {v.shape}" for key, v in tables.items())
             raise InputError(
                 "the arrays of a batch have shapes (segments,) or (beams, segments); "
                 f"received {told}"
