@@ -1,9 +1,13 @@
 """Settings of the documents as a site (Sphinx, MyST, furo); `python docs/build_site.py` builds it.
 
-Nothing is loaded from outside: furo brings its scripts and styles, fonts are the reader's own, and
-formulas are plain text, so that no MathJax is needed.
+Nothing is loaded from outside: furo brings its scripts and styles, fonts of the text are the
+reader's own, and KaTeX, which draws formulas, lies in `_static/katex` with its licence. Where
+scripts are off a formula stands as it was written.
 """
 
+from html import escape
+
+from docutils import nodes
 from pygments.lexers.special import TextLexer
 from sphinx.highlighting import lexers
 
@@ -14,7 +18,7 @@ author = "The antinode developers"
 copyright = author
 release = version = __version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton"]
 root_doc = "docs/index"
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 suppress_warnings = ["ref.python"]  # names that two modules have
@@ -22,6 +26,8 @@ smartquotes = False
 
 myst_heading_anchors = 4
 myst_enable_extensions: list[str] = []
+myst_fence_as_directive = ["math"]
+copybutton_exclude = ".linenos, .gp, .go"
 
 lexers["csv"] = TextLexer()
 
@@ -36,6 +42,10 @@ python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 88
 
 html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["katex/katex.min.css"]
+html_js_files = [("katex/katex.min.js", {"defer": "defer"}), ("formulas.js", {"defer": "defer"})]
+html_math_renderer = "katex"
 html_title = f"antinode {version}"
 html_copy_source = False
 html_show_sourcelink = False
@@ -59,6 +69,15 @@ def types_as_words(app, what, name, obj, options, lines):
             lines[k] = f":ivar {head}: *{types[head]}* – {text.strip()}".rstrip(" –")
 
 
+def formula(translator, node):
+    """Write a formula for KaTeX, as it is."""
+    block = isinstance(node, nodes.math_block)
+    tag, kind = ("div", "formula block") if block else ("span", "formula")
+    translator.body.append(f'<{tag} class="{kind}">{escape(node.astext())}</{tag}>')
+    raise nodes.SkipNode
+
+
 def setup(app):
     """Connect to Sphinx, after napoleon."""
+    app.add_html_math_renderer("katex", (formula, None), (formula, None))
     app.connect("autodoc-process-docstring", types_as_words, priority=900)

@@ -104,7 +104,7 @@ class Mode(ByValue):
 
     @property
     def damping_ratio(self) -> float:
-        """-Re s/|s|: negative where the motion grows, NaN for s = 0."""
+        """-Re s/abs(s): negative where the motion grows, NaN for s = 0."""
         s = self.eigenvalue_per_s
         return -s.real / abs(s) + 0.0 if s else math.nan
 

@@ -15,8 +15,8 @@ real and known with proof (`riccati.chain`). In their modes
 and by Cauchy and Schwarz ``|G_ij'|^2 <= S_psi S_Y`` with ``S_Y = sum Y_k^2/(m_k |lambda_k -
 lambda|^2) = Im(Y/Q) / Im lambda`` of the end's own receptance, and S_psi likewise: each sample
 bounds g around it, which makes its winding number a proof (`riccati.winding`). Far off on the left,
-``|lambda_k - lambda| >= (lambda_k + |lambda|) sin(theta/2)`` with theta the argument of lambda, and
-g is as near to 1 as receptances at -|lambda| tell.
+``abs(lambda_k - lambda) >= (lambda_k + abs(lambda)) sin(theta/2)``, theta its argument, and
+g is as near to 1 as receptances at -abs(lambda) tell.
 """
 
 from __future__ import annotations
