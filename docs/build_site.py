@@ -19,10 +19,10 @@ LINK = re.compile(r"\]\(([^)\s#]+)(#[^)\s]*)?\)")
 CONTENTS = {
     "Start": ("../README", "tutorial", "gallery"),
     "How to": ("howto", "howto/*"),
-    "Know": ("conventions", "theory/*"),
+    "Know": ("conventions", "glossary", "theory/*"),
     "Trust": ("validation", "../validation/*", "paper", "../benchmarks/*"),
     "API": ("../api/index",),
-    "Change": ("architecture", "adr/*", "../CONTRIBUTING", "../CHANGELOG"),
+    "Change": ("architecture", "adr/*", "releasing", "../CONTRIBUTING", "../CHANGELOG"),
 }
 """Captions of the contents on the left, and pages from docs/; a star stands for all others."""
 

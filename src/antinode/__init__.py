@@ -12,11 +12,14 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .beam.attachments import Dashpot, Joint, PointMass, Spring
     from .beam.beam import Beam
     from .beam.ends import Ends
     from .beam.file import BeamFile, load_beam
+    from .beam.sections.material import Material
     from .errors import AntinodeError, ComputationError, InputError
     from .modes.batch import BatchResult, BeamBatch, solve_many
+    from .modes.buckling import Buckling, buckling
     from .modes.frequencies import Frequencies, natural_frequencies
     from .modes.result import ModalResult, Mode
     from .modes.solve import solve_modes
@@ -37,10 +40,17 @@ if TYPE_CHECKING:
 _HOME = {
     "BatchResult": "modes.batch",
     "BeamBatch": "modes.batch",
+    "Buckling": "modes.buckling",
+    "buckling": "modes.buckling",
     "solve_many": "modes.batch",
     "Beam": "beam.beam",
     "Ends": "beam.ends",
     "BeamFile": "beam.file",
+    "Dashpot": "beam.attachments",
+    "Joint": "beam.attachments",
+    "Material": "beam.sections.material",
+    "PointMass": "beam.attachments",
+    "Spring": "beam.attachments",
     "load_beam": "beam.file",
     "Case": "vehicle.case",
     "load_case": "vehicle.case",
@@ -79,25 +89,32 @@ __all__ = [
     "Beam",
     "BeamBatch",
     "BeamFile",
+    "Buckling",
     "Case",
     "Cavitator",
     "ComputationError",
+    "Dashpot",
     "Ends",
     "FinSet",
     "Frequencies",
     "Identification",
     "IdentificationProblem",
     "InputError",
+    "Joint",
     "Loads",
+    "Material",
     "ModalResult",
     "Mode",
     "Model",
     "OperatingCondition",
+    "PointMass",
+    "Spring",
     "Stations",
     "Study",
     "Vehicle",
     "Water",
     "__version__",
+    "buckling",
     "compute_loads",
     "identify",
     "load_beam",
