@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING, FAMILIES
 from antinode.extras import import_extra
 from antinode.modes.result import ModalResult
 from antinode.show.tables import modal_table
@@ -62,6 +63,9 @@ def write_modes(
     """
     how = how or format_of(path, MODAL_FORMATS)
     result = modes.result
+    lost: Notes = ()
+    if how in ("nastran", "calculix"):
+        result, lost = _slender(result)
     if how in ("csv", "json", "netcdf"):
         table = lambda: modal_table(result)  # noqa: E731
         write_result(path, modes.data, table, result.to_dataset, _KINDS[how])
@@ -74,7 +78,32 @@ def write_modes(
         "nastran": lambda p: _nastran(p, result, system, analysis),
         "calculix": lambda p: _calculix(p, result, system, analysis),
     }
-    return _whole(path, writers[how])
+    return (*lost, *_whole(path, writers[how]))
+
+
+def _slender(result: ModalResult) -> tuple[ModalResult, Notes]:
+    """Return the modes of the beam that a deck can hold, and a note on what it leaves out."""
+    used = FAMILIES[BENDING].used(result.beam)
+    if not used:
+        return result, ()
+    from antinode.modes.solve import solve_modes
+
+    plain = replace(
+        result.beam,
+        theory="euler_bernoulli",
+        foundation_stiffness=None,
+        added_mass_per_length=None,
+    )
+    number = max((mode.number for mode in result.modes), default=1)
+    solved = solve_modes(
+        plain,
+        max(number, 1),
+        tolerance=result.tolerance,
+        families=result.families,
+        normalisation=result.normalisation,
+        unloaded=True,
+    )
+    return solved, (f"{', '.join(used)}: left out of the deck, and of the frequencies it states",)
 
 
 _KINDS = {"csv": ".csv", "json": ".json", "netcdf": ".nc"}

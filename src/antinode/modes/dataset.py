@@ -24,6 +24,7 @@ SCALARS: tuple[tuple[str, str, str], ...] = (
     ("modal_mass", "kg", "integral of m Y^2 of the shape as normalised"),
     ("shift", "1", "relative change of the frequency by the axial force"),
     ("model_error", "1", "first-order relative effect of shear and rotary inertia"),
+    ("effect_of_shear", "1", "relative effect of shear and rotary inertia, solved"),
 )
 """Numbers of a mode by their attributes, with unit and meaning."""
 

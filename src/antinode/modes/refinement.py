@@ -16,7 +16,7 @@ import numpy as np
 from antinode.arrays import Array, distinct
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
-from antinode.riccati.chain import Chain, omega2_scale
+from antinode.riccati.chain import Chain, largest_wave_number, omega2_scale
 from antinode.riccati.convergence import extrapolate, within
 from antinode.riccati.roots import Eigenvalue
 
@@ -100,11 +100,16 @@ class Refinement:
 def layer_length(chain: Chain, varies: Array | None = None) -> float:
     """Return the largest abs(N) h^2/EI of the segments; 0 in a family without axial force.
 
+    With shear or a foundation it is the square of what grows fastest at omega^2 = 0, times h^2.
+
     `varies` says for each whether it stands for something that varies; others are exact.
     """
     if not chain.law.has_axial_force:
         return 0.0
-    length = np.abs(chain.axial_force) * chain.length**2 / chain.stiffness
+    if chain.is_plain:
+        length = np.abs(chain.axial_force) * chain.length**2 / chain.stiffness
+    else:
+        length = (largest_wave_number(chain, 0.0) * chain.length) ** 2
     return float(np.max(length if varies is None else np.where(varies, length, 0.0)))
 
 

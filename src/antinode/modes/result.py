@@ -37,7 +37,17 @@ NOT_MODELLED = (
     "shell modes of the wall",
     "control of the thrust's direction",
 )
-"""What the model leaves out, always."""
+"""What the model of Euler and Bernoulli leaves out; Timoshenko's all but the first."""
+
+
+def not_modelled(beam: Beam) -> tuple[str, ...]:
+    """Return what the model of a beam leaves out."""
+    first = 1 if beam.has_shear else 0
+    return tuple(
+        words
+        for words in NOT_MODELLED[first:]
+        if beam.added_mass_per_length is None or not words.startswith("added mass")
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +81,10 @@ class Mode(ByValue):
         Relative difference of the Rayleigh quotient of the shape from omega2.
     model_error : float or None
         First-order relative effect of shear and rotary inertia on the frequency (negative: they
-        lower it); None where the beam does not tell, and for rigid modes.
+        lower it); None where they are solved, where the beam does not tell, and for rigid modes.
+    effect_of_shear : float or None
+        What they do to the frequency where they are solved: f/f_EB - 1, at the same axial force.
+        None in Euler-Bernoulli's theory, for rigid modes, and past buckling.
     growth : float
         Rate at which an oscillation grows, or decays where negative [1/s]; 0 where it does neither.
     unloaded_omega2 : float or None
@@ -94,6 +107,12 @@ class Mode(ByValue):
     states: Array = field(repr=False)
     unloaded_omega2: float | None = None
     growth: float = 0.0
+    effect_of_shear: float | None = None
+
+    @property
+    def by_shear(self) -> float | None:
+        """What shear and rotary inertia do to the frequency: solved, or else estimated."""
+        return self.model_error if self.effect_of_shear is None else self.effect_of_shear
 
     @property
     def eigenvalue_per_s(self) -> complex:
@@ -287,7 +306,8 @@ class ModalResult(ByValue):
             "tolerance": self.tolerance,
             "segments": dict(self.segments),
             "warnings": list(self.warnings),
-            "not_modelled": list(NOT_MODELLED),
+            **_theory(self.beam),
+            "not_modelled": list(not_modelled(self.beam)),
         }
 
     def to_dataset(self) -> xarray.Dataset:
@@ -301,6 +321,13 @@ class ModalResult(ByValue):
             "warnings": "\n".join(self.warnings),
         }
         return modal_dataset(self.modes, self.x, self.families, attributes)
+
+
+def _theory(beam: Beam) -> dict[str, str]:
+    """Return which theory is solved, and how the axial force and shear meet in it."""
+    if not beam.is_timoshenko:
+        return {"theory": "euler_bernoulli"}
+    return {"theory": "timoshenko", "shear_form": beam.shear_form}
 
 
 def _plus_minus(error: float) -> str:
@@ -339,6 +366,7 @@ def _plain_dict(mode: Mode) -> dict[str, Any]:
         else None,
         "shift": null(mode.shift),
         "model_error": mode.model_error,
+        "effect_of_shear": mode.effect_of_shear,
         "modal_mass": null(mode.modal_mass),
         "residual": null(mode.residual),
     }

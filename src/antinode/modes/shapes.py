@@ -235,6 +235,10 @@ def estimate_model_errors(
     """Return the first-order effect of rotary inertia and shear on each frequency, relative."""
     if not FAMILIES[chain.family].rotary or beam.axial_stiffness is None:
         return [None] * len(omega2)
+    if beam.has_shear:
+        return [None] * len(omega2)
     by_segment = model_error_parts(beam, chain, energies)
     parts = ModelErrorParts(*(part.sum(axis=0) for part in by_segment))
+    if beam.is_timoshenko:
+        parts = parts._replace(rotary=0 * parts.rotary)
     return [None if np.isnan(e) else e for e in parts.effect(omega2).tolist()]

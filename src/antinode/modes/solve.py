@@ -146,6 +146,7 @@ def _solve_families(
         certificates[family] = solved.certificate
     if unloaded:
         found = _compare_unloaded(solver.counting, beam, found, modes, tolerance)
+    found = _compare_rigid_in_shear(solver.counting, beam, found, modes, tolerance)
     if not all(np.isfinite(mode.omega2) for mode in found):
         raise ComputationError("a frequency is no finite number; check the units of the input")
     warnings += result_warnings(beam, found)
@@ -293,6 +294,34 @@ def _compare_unloaded(
         replace(m, unloaded_omega2=free[m.family].get(m.name) if m.family in free else m.omega2)
         for m in found
     ]
+
+
+def _compare_rigid_in_shear(
+    solver: Solver, beam: Beam, found: list[Mode], modes: int, tolerance: float
+) -> list[Mode]:
+    """Attach to every mode what shear and rotary inertia do to its frequency, if they are solved.
+
+    The modes of both theories are compared by their numbers.
+    """
+    plain = replace(beam, theory="euler_bernoulli")
+    compared = []
+    for family, entry in FAMILIES.items():
+        own = [mode for mode in found if mode.family == family]
+        if own and entry.used(beam) != entry.used(plain):
+            solved = solve_family(plain, family, modes, tolerance, solver)
+            names = name_modes(plain, family, solved.eigenvalues)
+            values = zip(names, solved.eigenvalues, strict=True)
+            rigid = {name: value.omega2 for (name, number), value in values if number}
+            own = [replace(m, effect_of_shear=_effect(m, rigid.get(m.name))) for m in own]
+        compared += own
+    return compared
+
+
+def _effect(mode: Mode, rigid: float | None) -> float | None:
+    """Return the relative change of a frequency from omega^2 = `rigid`; None if one is none."""
+    if rigid is None or rigid <= 0 or mode.omega2 <= 0 or mode.growth:
+        return None
+    return math.sqrt(mode.omega2 / rigid) - 1
 
 
 def _unloaded(

@@ -70,7 +70,19 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
             f"{', '.join(shapeless)}: modes that coincide, whose shapes could not be told apart; "
             "the frequencies and their counts hold"
         )
-    return warnings + _shear_warnings(beam, modes)
+    return warnings + _shear_warnings(beam, modes) + _left_out(beam)
+
+
+def _left_out(beam: Beam) -> list[str]:
+    """Say which columns the theory that was asked for does not use."""
+    tables = ("shear_stiffness", "rotary_inertia_per_length")
+    given = [name for name in tables if getattr(beam, name) is not None]
+    if beam.is_timoshenko or not given:
+        return []
+    return [
+        f"{' and '.join(given)}: left out, because theory = 'euler_bernoulli'; leave the theory "
+        "out, or set it to 'timoshenko', to solve them"
+    ]
 
 
 def _shear_warnings(beam: Beam, modes: list[Mode]) -> list[str]:

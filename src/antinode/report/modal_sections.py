@@ -83,7 +83,7 @@ def _frequency_row(mode: Mode) -> tuple[str, ...]:
         "exact" if exact else small(mode.error_hz),
         "–" if exact else f"{low} … {high}",
         counts,
-        percent(mode.model_error),
+        percent(mode.by_shear),
     )
 
 

@@ -17,7 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from antinode.beam.attachments import name_of
-from antinode.modes.result import NOT_MODELLED, ModalResult, Mode
+from antinode.modes.result import ModalResult, Mode, not_modelled
 from antinode.text import counted, one_line
 
 if TYPE_CHECKING:
@@ -66,11 +66,22 @@ def _row(table: Table, *cells: str) -> None:
 
 def show_modes(out: Console, result: ModalResult, warnings: Sequence[str] = ()) -> None:
     """Print the table of modes, then all warnings and what the model leaves out."""
+    if result.beam.is_timoshenko:
+        out.print(f"[dim]{_theory_text(result.beam)}[/dim]", highlight=False)
     out.print(modes_table(result, out))
     if result.method == "tmm":
         out.print(f"[dim]{_BY_TMM}[/dim]", highlight=False)
     show_warnings(out, [*warnings, *result.warnings])
-    out.print(f"[dim]Not in the model: {'; '.join(NOT_MODELLED)}.[/dim]", highlight=False)
+    missing = "; ".join(not_modelled(result.beam))
+    out.print(f"[dim]Not in the model: {missing}.[/dim]", highlight=False)
+
+
+def _theory_text(beam: Beam) -> str:
+    """Name the theory where it is not Euler-Bernoulli's."""
+    form = {"haringx": "Haringx", "engesser": "Engesser"}[beam.shear_form]
+    if not beam.has_shear:
+        return "Timoshenko's theory, rigid in shear: with rotary inertia alone"
+    return f"Timoshenko's theory: shear (with the axial force by {form}) and rotary inertia solved"
 
 
 _BY_TMM = (
@@ -143,7 +154,7 @@ def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
         "0" if exact else frequency_text(mode),
         "exact" if exact else f"{mode.error_hz:.1e}",
         percent(mode.shift),
-        "" if mode.model_error is None else percent(mode.model_error),
+        "" if mode.by_shear is None else percent(mode.by_shear),
     )
 
 

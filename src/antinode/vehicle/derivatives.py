@@ -25,6 +25,7 @@ import numpy.typing as npt
 
 from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
+from antinode.beam.checks import ShearForm
 from antinode.beam.families import FAMILIES, FamilyName
 from antinode.beam.mass import moments_within
 from antinode.beam.profile import Profile
@@ -59,11 +60,14 @@ class ChainModes:
         [rad^2/s^2].
     backend : {"auto", "numpy", "numba"}
         What computes the shapes.
+    shear_form : {"haringx", "engesser"}
+        How the axial force and shear meet.
     """
 
     chain: Chain
     omega2: Array
     backend: BackendName = "auto"
+    shear_form: ShearForm = "haringx"
 
     @property
     def family(self) -> FamilyName:
@@ -101,8 +105,41 @@ class ChainModes:
 
     @cached_property
     def _modal_mass(self) -> Array:
-        mass = np.repeat(self.chain.mass, len(self._rule[0])) * self._weights
-        return np.asarray(mass @ self._at_points[..., 0] ** 2)
+        mass = self._column("mass") * self._weights @ self._at_points[..., 0] ** 2
+        if "rotary_inertia" in self.chain.columns:
+            rotary = self._column("rotary_inertia") * self._weights
+            mass = mass + rotary @ self._at_points[..., 1] ** 2
+        return np.asarray(mass)
+
+    def _column(self, name: str) -> Array:
+        """Return a column of the chain at the Gauss points, shape (q,)."""
+        return np.repeat(self.chain.columns[name], len(self._rule[0]))
+
+    def _over_mass(self, square: Array) -> Array:
+        """Return weights of the Gauss points for a square of the modes there, shape (q, k)."""
+        return np.asarray(self._weights[:, None] * square / self._modal_mass)
+
+    @cached_property
+    def by_rotary_inertia(self) -> Array:
+        """Weights of d(rho I)(x), shape (q, k)."""
+        return -self.omega2 * self._over_mass(self._at_points[..., 1] ** 2)
+
+    @cached_property
+    def by_foundation(self) -> Array:
+        """Weights of dk(x), shape (q, k)."""
+        return self._over_mass(self._at_points[..., 0] ** 2)
+
+    @cached_property
+    def by_shear_stiffness(self) -> Array:
+        """Weights of dkGA(x), shape (q, k): the squares of the shear angle."""
+        return self._over_mass((self._slopes - self._at_points[..., 1]) ** 2)
+
+    @cached_property
+    def _slopes(self) -> Array:
+        """Y' at the Gauss points, shape (q, k)."""
+        names = (name for name in ("shear", "shear_turn") if name in self.chain.columns)
+        columns = {name: self._column(name)[:, None] for name in names}
+        return self.chain.law.slope(columns, self._at_points)
 
     @cached_property
     def by_mass(self) -> Array:
@@ -115,8 +152,10 @@ class ChainModes:
         """Weights of dN(x), shape (q, k); zero longitudinally."""
         if not self.chain.law.has_axial_force:
             return np.zeros((len(self.x), len(self.omega2)))
-        square = self._weights[:, None] * self._at_points[..., 1] ** 2
-        return np.asarray(-square / self._modal_mass)
+        square = self._slopes**2
+        if self.shear_form == "haringx":
+            square = square - (self._slopes - self._at_points[..., 1]) ** 2
+        return -self._over_mass(square)
 
     def by_stiffness(self, stiffness: Array) -> Array:
         """Weights of dEI(x) or dEA(x), given what it is at the Gauss points, shape (q, k)."""
@@ -135,8 +174,25 @@ class ChainModes:
         return np.asarray(self.at(x)[..., 0])
 
     def slope_squared(self, x: float) -> Array:
-        """Return Y'^2 over the modal mass at a place between nose and tail, shape (k,)."""
-        return np.asarray(self.at(np.array([x]))[0, :, 1] ** 2 / self._modal_mass)
+        """Return what N works on at a place, over the modal mass, shape (k,).
+
+        That is Y'^2, without shear; with it, Haringx' Y'^2 less the shear angle's square, or
+        Engesser's Y'^2, as a mean of both sides where N jumps.
+        """
+        z, nodes = self.at(np.array([x]))[0], self.chain.nodes
+        if "shear" not in self.chain.columns:
+            return np.asarray(z[:, 1] ** 2 / self._modal_mass)
+        beside = np.array([x * (1 - 1e-12), x * (1 + 1e-12)])
+        sides = np.clip(np.searchsorted(nodes, beside, side="right") - 1, 0, len(nodes) - 2)
+        total = np.zeros(len(self.omega2))
+        for side in sides:
+            columns = {name: v[side] for name, v in self.chain.columns.items()}
+            slope = self.chain.law.slope(columns, z)
+            square = slope**2
+            if self.shear_form == "haringx":
+                square = square - (slope - z[:, 1]) ** 2
+            total += square / 2
+        return np.asarray(total / self._modal_mass)
 
 
 class Hats(NamedTuple):

@@ -55,7 +55,7 @@ def frequency_rows(answer: Answer, family: FamilyName) -> list[Row]:
 
 
 def _row(mode: Mode) -> Row:
-    return Row(mode.name, mode.omega2, mode.error_omega2, mode.shift, mode.model_error)
+    return Row(mode.name, mode.omega2, mode.error_omega2, mode.shift, mode.by_shear)
 
 
 def _shown(row: Row, baseline: float | None, view: View) -> dict[str, Any]:
