@@ -35,7 +35,7 @@ from antinode import Beam, Ends, load_case, solve_modes  # noqa: E402
 from antinode.modes.buckling import buckling  # noqa: E402
 from antinode.riccati.roots import find_eigenvalues  # noqa: E402
 from antinode.riccati.segment import lateral_transfer, wave_number  # noqa: E402
-from law_chains import bending_chain  # noqa: E402
+from law_chains import bar_chain, bending_chain  # noqa: E402
 
 ENDS = uniform.ENDS
 
@@ -58,9 +58,10 @@ def uniform_beams(segments, modes, pairs=uniform.PAIRS):
 
 
 def uniform_bars(segments, modes):
+    one = np.ones(segments)
     return max(
         uniform.check(
-            uniform.uniform_chain(segments, left, right, family="longitudinal"),
+            bar_chain(one / segments, one, one, left, right),
             reference.uniform_bar_roots(left, right, modes),
             2,
             1e-10,

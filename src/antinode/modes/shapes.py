@@ -10,6 +10,7 @@ from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES
 from antinode.riccati.chain import Chain
+from antinode.riccati.laws import Columns, Units
 from antinode.riccati.roots import Eigenvalue
 from antinode.riccati.shapes import Energies, propagate
 
@@ -87,17 +88,16 @@ def largest_displacements(chain: Chain, states: Array, omega2: Array) -> Array:
     place, height = _cubic_peaks(chain, states[:-1], ends)
     most = min(_PEAKS, len(height))
     highest = np.argpartition(-height, most - 1, axis=0)[:most]
-    for first in range(0, len(omega2), _TOGETHER):
-        some = np.arange(first, min(first + _TOGETHER, len(omega2)))
-        segment, column = highest[:, some].ravel(), np.tile(np.arange(len(some)), most)
-        peaks = _Peaks(chain, states[segment][:, some], omega2[some], segment, column)
-        found = peaks.heights(place[segment, some[column]]).reshape(most, -1)
-        largest[some] = np.maximum(largest[some], np.max(found, axis=0))
-    return np.asarray(largest)
+    segment, mode = highest.ravel(), np.tile(np.arange(len(omega2)), most)
+    scale, stiffness = chain.units(omega2)
+    units = Units(scale[mode], stiffness)
+    peaks = _Peaks(chain, segment, states[segment, mode], omega2[mode], units)
+    found = peaks.heights(place[segment, mode]).reshape(most, -1)
+    return np.asarray(np.maximum(largest, np.max(found, axis=0)))
 
 
 _PEAKS = 4  # of a mode whose height is computed: the cubics tell them apart
-_TOGETHER = 16  # modes
+_NEAR = 1e-7  # share of a segment, the square of which no height shows
 
 
 def _left_sides(chain: Chain, states: Array, omega2: Array) -> Array:
@@ -133,36 +133,39 @@ def _cubic_peaks(chain: Chain, start: Array, end: Array) -> tuple[Array, Array]:
 
 
 class _Peaks(NamedTuple):
-    """Peaks of modes between nodes: in a segment each, of a column of the states."""
+    """Peaks of modes between nodes, each of one mode in one segment."""
 
     chain: Chain
-    start: Array
-    """States at the left ends of the segments, shape (peaks, modes, s)."""
-    omega2: Array
     segment: Integers
-    column: Integers
+    start: Array
+    """States of the modes at the left ends of the segments, shape (peaks, s)."""
+    omega2: Array
+    units: Units
 
     def heights(self, place: Array) -> Array:
         """Return abs(displacement) at its peaks, near places given as shares of the segments."""
-        h = self.chain.length[self.segment]
+        law, h = self.chain.law, self.chain.length[self.segment]
         columns = {name: v[self.segment] for name, v in self.chain.columns.items()}
-        height = np.zeros(len(place))
-        steps = [np.zeros(len(place)), place]
-        slopes = [self.chain.law.slope(columns, self._at(steps[0]))]
+        height, before = np.zeros(len(place)), np.zeros(len(place))
+        slope = law.slope(columns, self.start)
         for _ in range(3):
-            z = self._at(steps[-1] * h)
+            z = self._at(place * h, columns)
             height = np.maximum(height, np.abs(z[:, 0]))
-            slopes.append(self.chain.law.slope(columns, z))
-            change = slopes[-1] - slopes[-2]
-            safe = np.where(change == 0, 1.0, change)
-            secant = steps[-1] - slopes[-1] * (steps[-1] - steps[-2]) / safe
-            steps.append(np.where(change == 0, steps[-1], np.clip(secant, 0.0, 1.0)))
+            here = law.slope(columns, z)
+            change = here - slope
+            step = here * (place - before) / np.where(change == 0, 1.0, change)
+            following = np.where(change == 0, place, np.clip(place - step, 0.0, 1.0))
+            if np.all(np.abs(following - place) < _NEAR):
+                break
+            before, slope, place = place, here, following
         return height
 
-    def _at(self, distance: Array) -> Array:
-        """Return the state of each peak's own mode at a distance into its segment, (peaks, s)."""
-        z = propagate(self.chain, self.start, self.omega2, distance, self.segment)
-        return np.asarray(z[np.arange(len(self.column)), self.column])
+    def _at(self, distance: Array, columns: Columns) -> Array:
+        """Return the states at a distance into the segments, shape (peaks, s)."""
+        law, beside = self.chain.law, {name: values[None] for name, values in columns.items()}
+        units = law.state_units(self.units)
+        U = law.transfer(distance[None], beside, self.omega2, self.units)[0]
+        return np.asarray(np.einsum("pij,pj->pi", U, self.start / units) * units)
 
 
 def normalising_factors(

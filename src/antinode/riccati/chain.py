@@ -185,6 +185,8 @@ def split_long(chain: Chain, omega2: float, limit: float = LONGEST_STEP) -> Chai
     pieces = np.ceil(largest_wave_number(chain, omega2) * chain.length / limit)
     if not np.all(np.isfinite(pieces)) or np.sum(pieces) > 5e6:
         raise FloatingPointError(f"omega^2 = {omega2:g} rad^2/s^2 is out of reach for this chain")
+    if pieces.max() <= 1:
+        return chain
     return chain.split(np.maximum(pieces, 1).astype(np.int64))
 
 

@@ -175,6 +175,8 @@ def split_for(chain: Chain, omega2: Array) -> Chain:
 
 def kept_nodes(chain: Chain, fine: Chain) -> Integers:
     """Return where the nodes of a chain lie among those of a finer one."""
+    if fine is chain:
+        return np.arange(len(chain.length) + 1)
     ends = np.searchsorted(fine.nodes, chain.nodes)
     nearest = np.abs(fine.nodes[np.maximum(ends - 1, 0)] - chain.nodes)
     after = np.abs(fine.nodes[np.minimum(ends, len(fine.length))] - chain.nodes)
