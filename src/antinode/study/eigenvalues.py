@@ -25,6 +25,7 @@ from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import ChainModes, EigenvalueDerivatives
 from antinode.vehicle.loads import Loads
+from antinode.vehicle.many_beams import sheared_columns
 
 Wanted = Mapping[FamilyName, int]
 _FINEST = 16
@@ -100,6 +101,12 @@ def _batch(chains: Sequence[Chain], modes: int) -> BeamBatch:
         table: np.stack([chain.columns[name] for chain in chains])
         for name, table in family.columns.items()
     }
+    more = {
+        name: np.stack([chain.columns[name] for chain in chains])
+        for name in chains[0].columns
+        if name not in family.columns
+    }
+    tables |= sheared_columns(more)
     length = np.stack([chain.length for chain in chains])
     return BeamBatch(length, modes=modes, family=family.name, **tables)
 

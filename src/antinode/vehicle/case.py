@@ -36,7 +36,11 @@ COLUMNS = (
     "wall",
     "torsional_stiffness",
     "polar_inertia_per_length",
+    "shear_stiffness",
+    "rotary_inertia_per_length",
 )
+THIN_TUBE = 4 + 3 * 0.3
+"""EA/kGA of a thin tube of nu = 0.3 (Cowper, 1966)."""
 
 
 class Case(Frozen):
@@ -67,17 +71,13 @@ class Case(Frozen):
         InputError
             If its numbers are beyond all reason.
         """
-        beam = vehicle_beam(
-            self.vehicle, self.loads, self.condition.burn_fraction, self.model.follow
-        )
+        beam = vehicle_beam(self.vehicle, self.loads, self.condition.burn_fraction, self.model)
         with naming(f"at {self.condition.speed:g} m/s"):
             check_limits(beam)
         return beam
 
 
-def vehicle_beam(
-    vehicle: Vehicle, loads: Loads, burn_fraction: float, follow: tuple[float, float]
-) -> Beam:
+def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float, model: Model) -> Beam:
     """Return a vehicle as a free-free beam under the axial force of its loads.
 
     Parameters
@@ -87,9 +87,10 @@ def vehicle_beam(
         ``N(x) = axial_jump + axial_inertia * (mass ahead of x)`` between its breakpoints.
     burn_fraction : float
         0 the first mass state, 1 the last.
-    follow : tuple of float
-        Shares of the cavitator's drag, and of the thrust, that turn with the body.
+    model : Model
+        Theory of the beam; shares of the cavitator's drag and of the thrust that turn with it.
     """
+    nose, tail = model.follow
     steps = np.repeat(loads.axial_jump[:, None], 2, axis=1)
     return body_as_beam(
         vehicle,
@@ -97,9 +98,31 @@ def vehicle_beam(
         burn_fraction,
         axial_force=steps,
         axial_acceleration=loads.axial_inertia,
-        ends=Ends(left_follower=follow[0], right_follower=follow[1]),
+        ends=Ends(left_follower=nose, right_follower=tail),
         end_force=(loads.F_CX, loads.thrust),
+        **_sheared(vehicle.section(loads.breakpoints, burn_fraction), model),
     )
+
+
+def _sheared(section: Section, model: Model) -> dict[str, Any]:
+    """Return what Timoshenko's theory asks for besides; nothing in Euler-Bernoulli's.
+
+    kGA is that of the stations, or EA/(4 + 3 nu), that of a thin tube; rho I that of the stations,
+    or m times the square of the radius of gyration: of the stations, the hull, or sqrt(EI/EA).
+    """
+    if model.theory == "euler_bernoulli":
+        return {}
+    kGA, rotary = section.shear_stiffness, section.rotary_inertia_per_length
+    if rotary is None:
+        r2 = section.bending_stiffness / section.axial_stiffness
+        r = radius_of_gyration(section)
+        rotary = section.mass_per_length * (r2 if r is None else r**2)
+    return {
+        "theory": "timoshenko",
+        "shear_form": model.shear_form,
+        "shear_stiffness": section.axial_stiffness / THIN_TUBE if kGA is None else kGA,
+        "rotary_inertia_per_length": rotary,
+    }
 
 
 def body_as_beam(vehicle: Vehicle, x: Array, burn_fraction: float, **axial: Any) -> Beam:

@@ -7,7 +7,8 @@ Cases whose chains have as many segments are solved together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -35,6 +36,8 @@ class Chains:
     rows : array of int
         The cases.
     length, mass, stiffness, axial_force : array, shape (cases or 1, n)
+    more : dict of array, shape (cases, n)
+        Columns of a chain besides: what shear and rotary inertia add.
     """
 
     rows: Integers
@@ -42,6 +45,7 @@ class Chains:
     mass: Array
     stiffness: Array
     axial_force: Array
+    more: Mapping[str, Array] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -195,3 +199,14 @@ def _taken(table: Array, rows: Integers, index: Integers) -> Array:
     if table.ndim == 1:
         return np.asarray(table[index])
     return np.take_along_axis(table[rows], index, axis=1)
+
+
+def sheared_columns(columns: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the arrays of a `BeamBatch` for columns of chains in shear, of Haringx' form."""
+    found = {}
+    if "shear" in columns:
+        with np.errstate(divide="ignore"):
+            found["shear_stiffness"] = 1 / columns["shear"]
+    if "rotary_inertia" in columns:
+        found["rotary_inertia_per_length"] = columns["rotary_inertia"]
+    return found

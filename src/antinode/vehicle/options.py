@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from antinode.beam.checks import ShearForm, Theory
 from antinode.inputs.units import Frozen, Number
 
 
@@ -70,6 +71,14 @@ class Model(Frozen):
         default="exact",
         description="N along the axis: exact, with steps at the forces, or constant between the "
         "stations as in eq. 22",
+    )
+    theory: Theory = Field(
+        default="euler_bernoulli",
+        description="of the beam: timoshenko counts shear, kGA of the stations or EA/(4 + 3 nu) as "
+        "of a thin tube of nu = 0.3, and the rotary inertia of hull or stations",
+    )
+    shear_form: ShearForm = Field(
+        default="haringx", description="how the axial force and shear meet, in timoshenko's theory"
     )
     end_force: Literal["follows_body", "fixed_direction"] = Field(
         default="fixed_direction",

@@ -122,6 +122,15 @@ class Stations(Frozen):
         description="rho I_p about the axis [kg m], parts included; beside torsional_stiffness",
     )
 
+    shear_stiffness: Annotated[Array, Column("N")] | None = Field(
+        default=None, description="kGA [N], for [model] theory = timoshenko; by default EA/4.9"
+    )
+    rotary_inertia_per_length: Annotated[Array, Column("kg m")] | None = Field(
+        default=None,
+        description="rho I of the sections [kg m], for the same; by default m times the square of "
+        "the radius of gyration",
+    )
+
     @model_validator(mode="before")
     @classmethod
     def _gather_mass_states(cls, data: Any) -> Any:
@@ -179,6 +188,8 @@ _OPTIONAL = {
     "wall": "m",
     "torsional_stiffness": "N m^2",
     "polar_inertia_per_length": "kg m",
+    "shear_stiffness": "N",
+    "rotary_inertia_per_length": "kg m",
 }
 """Columns that stations may leave out, with their units."""
 
@@ -196,6 +207,8 @@ class Section:
     wall: Array | None
     torsional_stiffness: Array | None
     polar_inertia_per_length: Array | None
+    shear_stiffness: Array | None
+    rotary_inertia_per_length: Array | None
 
 
 class Vehicle(Frozen):
@@ -303,6 +316,8 @@ class Vehicle(Frozen):
             wall=optional(table.wall, self._radial),
             torsional_stiffness=optional(table.torsional_stiffness, self.interpolation),
             polar_inertia_per_length=optional(table.polar_inertia_per_length, self._radial),
+            shear_stiffness=optional(table.shear_stiffness, self.interpolation),
+            rotary_inertia_per_length=optional(table.rotary_inertia_per_length, self._radial),
         )
 
     @property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -14,6 +14,7 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.limits import check_limits
 from antinode.errors import AntinodeError
+from antinode.riccati.chain import Chain
 from antinode.study.design.file import LOAD_OUTPUTS
 from antinode.vehicle.case import Case, vehicle_beam
 from antinode.vehicle.loads import loads_of_case
@@ -55,6 +56,7 @@ def beams_of(cases: Cases) -> CaseBeams:
     """Return the beams of some cases."""
     reason = np.where(cases.outside(), OUT_OF_RANGE, 0)
     arrays = all(v.kind == "time" or is_vectorised(v.keys) for v in cases.variables)
+    arrays = arrays and cases.study.case.model.theory == "euler_bernoulli"
     return _on_arrays(cases, reason) if arrays else _one_by_one(cases, reason)
 
 
@@ -91,7 +93,7 @@ def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
                 case.vehicle,
                 loads_of_case(many, 0),
                 case.condition.burn_fraction,
-                case.model.follow,
+                case.model,
             )
             check_limits(beam)
         except AntinodeError:
@@ -114,5 +116,13 @@ def _chains_of(beams: Mapping[int, Beam], rows: Integers, refinement: int) -> li
             np.stack([getattr(chain, name) for chain in own.values()])
             for name in ("length", "mass", "stiffness", "axial_force")
         ]
-        found.append(Chains(np.array(list(own)), *table))
+        length, m, EI, N = table
+        more = _more(list(own.values()))
+        found.append(Chains(np.array(list(own)), length, m, EI, N, more))
     return found
+
+
+def _more(chains: Sequence[Chain]) -> dict[str, Array]:
+    """Return the columns of chains besides those of their law, one row a chain."""
+    names = [name for name in chains[0].columns if name not in chains[0].law.columns]
+    return {name: np.stack([chain.columns[name] for chain in chains]) for name in names}

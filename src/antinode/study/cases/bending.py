@@ -7,6 +7,7 @@ halved steps; all chains are refined until it is within the tolerance.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +23,7 @@ from antinode.riccati.convergence import extrapolate
 from antinode.riccati.roots import CountingError, find_eigenvalues
 from antinode.study.design.file import Study
 from antinode.vehicle.derivatives import ChainModes
-from antinode.vehicle.many_beams import Chains
+from antinode.vehicle.many_beams import Chains, sheared_columns
 
 from .beams import CaseBeams
 from .reasons import PAST_BUCKLING, failed
@@ -151,7 +152,9 @@ def _omega2(groups: list[Chains], modes: int) -> Array:
 
 def solve_free(chains: Chains, modes: int) -> tuple[Array, Array, Integers]:
     """Return omega^2, its error and the reason for every chain; by frames where lanes fail."""
-    batch = BeamBatch(chains.length, chains.mass, chains.stiffness, chains.axial_force, modes=modes)
+    tables = chains.length, chains.mass, chains.stiffness, chains.axial_force
+    more: dict[str, Any] = sheared_columns(chains.more)
+    batch = BeamBatch(*tables, modes=modes, **more)
     result = solve_many(batch)
     omega2, error, reason = result.omega2, result.error_omega2, result.reason
     buckled = ~(omega2[:, 0] > _NEAR_BUCKLING * omega2[:, -1])
@@ -181,7 +184,8 @@ def chain_of(chains: Chains, i: int) -> Chain:
     tables = (chains.length, chains.mass, chains.stiffness, chains.axial_force)
     length, *columns = (table[i if len(table) > 1 else 0] for table in tables)
     law = FAMILIES[BENDING].law
-    return Chain(law, length, law.named(*columns))
+    more = {name: table[i] for name, table in chains.more.items()}
+    return Chain(law, length, law.named(*columns) | more)
 
 
 def _by_frames(chain: Chain, modes: int) -> tuple[Array, Array] | None:
