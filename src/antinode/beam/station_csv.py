@@ -1,8 +1,8 @@
 """Stations in CSV as the table `[beam]`: a header with units, one row a station.
 
-A first line `# interpolation = "step"` says how the columns run, and others like it, such as
-`# youngs_modulus = "210 GPa"`, what the material of dimensions is; readers that pass over comments
-do not mind them.
+A first line `# interpolation = "step"` says how the columns run; `# theory = "timoshenko"` and
+`# shear_form = "haringx"` are read too, and of what the material of dimensions is, such as
+`# youngs_modulus = "210 GPa"`. Readers that pass over comments do not mind them.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from .sections.material import Material
 
 HULL = ("radius", "wall")
 """Columns that a vehicle's stations have besides: no beam needs them, a table keeps them."""
-_INTERPOLATION = re.compile(r'^#\s*interpolation\s*=\s*"?(step|linear|log)"?\s*$', re.MULTILINE)
+_KEYS = re.compile(r'^#\s*(interpolation|theory|shear_form)\s*=\s*"?(\w+)"?\s*$', re.MULTILINE)
 _MATERIAL = re.compile(rf"^#\s*({'|'.join(Material.model_fields)})\s*=\s*(.+?)\s*$", re.MULTILINE)
 
 
@@ -32,8 +32,7 @@ def read_station_csv(path: Path, columns: tuple[str, ...]) -> dict[str, Any]:
     """
     table = beam_table(path, read_csv(path, (*columns, *HULL)))
     head = read_csv_text(path)[:2000]
-    if found := _INTERPOLATION.search(head):
-        table["interpolation"] = found[1]
+    table |= dict(_KEYS.findall(head))
     if material := {key: value.strip("\"'") for key, value in _MATERIAL.findall(head)}:
         table["material"] = material
     return table

@@ -56,6 +56,8 @@ def mat_variables(result: ModalResult) -> dict[str, Any]:
     """Return the variables of the file by name, without the stations."""
     modes = result.modes
     variables: dict[str, Any] = {"beam_name": result.beam.name, "x": result.x[:, None]}
+    variables["theory"] = "timoshenko" if result.beam.is_timoshenko else "euler_bernoulli"
+    variables["shear_form"] = result.beam.shear_form
     for key in ("name", "family", "kind"):
         variables[f"mode_{key}"] = np.array([getattr(m, key) for m in modes], dtype=object)
     variables["mode_number"] = np.array([float(m.number) for m in modes])

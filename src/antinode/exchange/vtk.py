@@ -16,9 +16,12 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
+from antinode.beam.checks import TABLES
 from antinode.beam.families import FAMILIES
 from antinode.inputs.reading import COLUMN_UNITS
 from antinode.modes.result import ModalResult, Mode
+
+from .beam_toml import shear_keys
 
 LINE = 3
 """VTK's number for a cell of two points."""
@@ -35,10 +38,11 @@ def write_vtu(path: Path, result: ModalResult) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        What the file does not hold: always empty.
+        What the file does not hold.
     """
     path.write_text(vtu_text(result), encoding="utf-8")
-    return ()
+    theory = ", ".join(f"{key} = '{value}'" for key, value in shear_keys(result.beam).items())
+    return (f"{theory} is left out",) if theory else ()
 
 
 def vtu_text(result: ModalResult) -> str:
@@ -93,9 +97,9 @@ def _point_data(result: ModalResult) -> Iterable[str]:
 def _cell_data(beam: Beam, x: Array) -> Iterable[str]:
     k = np.clip(np.searchsorted(beam.x, x, side="right") - 1, 0, len(beam.x) - 2)
     t = (x - beam.x[k]) / np.diff(beam.x)[k]
-    for name in dict.fromkeys(table for family in FAMILIES.values() for table in family.tables):
+    for name in TABLES:
         if name != "axial_force" and getattr(beam, name) is not None:
-            yield _array(f"{name} [{COLUMN_UNITS[name]}]", beam.column_at(name, k, t))
+            yield _array(f"{name} [{COLUMN_UNITS[name] or '1'}]", beam.column_at(name, k, t))
     yield _array("axial_force [N]", beam.axial_force_at(k, t))
 
 

@@ -32,7 +32,10 @@ def write_uff(path: Path, result: ModalResult) -> tuple[str, ...]:
     """
     path.write_text(uff_text(result), encoding="ascii", errors="replace")
     left = [mode.name for mode in result.modes if mode.omega2 < 0]
-    return (f"divergent, and left out: {', '.join(left)}",) if left else ()
+    notes = ["modes alone: the properties of the beam are left out"]
+    if left:
+        notes.append(f"divergent, and left out: {', '.join(left)}")
+    return tuple(notes)
 
 
 def uff_text(result: ModalResult) -> str:
