@@ -7,9 +7,9 @@ Nothing is ever written here.
 from __future__ import annotations
 
 import codecs
-import csv
 import difflib
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,6 +18,10 @@ from typing import Any, NamedTuple
 from antinode.errors import AntinodeError, InputError
 from antinode.text import nearest, short
 
+from .cells import MOST_ROWS as MOST_ROWS
+from .cells import TOO_MANY, rows_of, with_heading, without_empty_columns
+from .cells import Row as Row
+from .headings import are_units, bare_unit, heading
 from .override import override
 from .toml_reading import parse_toml
 from .units import unit_factor
@@ -25,7 +29,6 @@ from .written import number
 
 MOST_TOML_BYTES = 2_000_000
 MOST_CSV_BYTES = 20_000_000
-MOST_ROWS = 20_000
 
 COLUMN_UNITS = {
     "x": "m",
@@ -54,13 +57,6 @@ COLUMN_UNITS = {
 }
 _MAY_BE_INFINITE = ("shear_stiffness",)
 """SI unit of every column that a table of stations may have."""
-
-
-class Row(NamedTuple):
-    """A row of a CSV table with the number of its line in the file."""
-
-    line: int
-    cells: list[str]
 
 
 def read_toml(path: Path) -> dict[str, Any]:
@@ -117,8 +113,10 @@ _OTHER_FILES = {
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
-def read_text(path: Path, most: int, what: str) -> str:
+def read_text(path: Path, most: int, what: str, other: str = "") -> str:
     """Read a text of at most so many bytes, with plain line ends.
+
+    UTF-8 or UTF-16, or else `other`, a code in which no byte below a blank may stand.
 
     Raises
     ------
@@ -127,12 +125,26 @@ def read_text(path: Path, most: int, what: str) -> str:
     """
     try:
         data = read_bytes(path, most, what)
-        text = data.decode("utf-16" if data[:2] in _UTF_16 else "utf-8-sig")
+        text = _decoded(data, other)
         return text.replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path}: this is not UTF-8 text; save it as UTF-8, or check that this is {what}"
         ) from error
+
+
+def _decoded(data: bytes, other: str) -> str:
+    """Return bytes as text; UTF-16 without its mark shows by zeros beside the first letter."""
+    if data[:2] in _UTF_16:
+        return data.decode("utf-16")
+    if len(data) > 1 and (data[0] == 0) != (data[1] == 0):
+        return data.decode("utf-16-be" if data[0] == 0 else "utf-16-le")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        if not other or re.search(rb"[\x00-\x08\x0e-\x1f]", data):
+            raise
+        return data.decode(other)
 
 
 def read_bytes(path: Path, most: int, what: str) -> bytes:
@@ -275,14 +287,25 @@ def _read_stations(
             f"{key} is {short(source)}; give the name of a CSV file, or a table of columns such as "
             "{ x = [0, 1], ... }"
         )
-    for name, column in source.items():
-        _check_column(str(name), columns, key)
+    stations: dict[str, Any] = {}
+    for written, column in source.items():
+        name, unit = heading(str(written), columns)
+        _check_column(name, columns, key)
+        if name in stations:
+            raise InputError(f"{key}: the column {name} stands there twice; remove one")
         if isinstance(column, list) and len(column) > MOST_ROWS:
-            raise InputError(f"{key}.{name} has {len(column)} rows; {_TOO_MANY}")
-    return dict(source), None
+            raise InputError(f"{key}.{name} has {len(column)} rows; {TOO_MANY}")
+        factor = _factor(name, unit, key) if unit else 1.0
+        stations[name] = _times(column, factor) if unit else column
+    return stations, None
 
 
-_TOO_MANY = f"at most {MOST_ROWS} are allowed: give a coarser table"
+def _times(column: object, factor: float) -> object:
+    """Return a column whose heading names a unit in SI; texts say their units themselves."""
+    if not isinstance(column, list):
+        return column
+    plain = (int, float)
+    return [v * factor if isinstance(v, plain) and not isinstance(v, bool) else v for v in column]
 
 
 def read_csv(path: Path, columns: Sequence[str]) -> dict[str, list[float]]:
@@ -302,10 +325,16 @@ def station_columns(rows: list[Row], columns: Sequence[str], path: Path) -> dict
     InputError
         If it is no such table.
     """
-    rows = list(rows)
+    named = (_named(row, columns) > 1 for row in rows[:_HIGHEST_TITLE])
+    rows = list(rows) if rows and _named(rows[0], columns) else with_heading(list(rows), named)
     if not rows:
         raise InputError(f"{path}: the table is empty; {_NEEDED}")
-    names, factors = _header(rows[0].cells, columns, path)
+    rows = without_empty_columns(rows)
+    head, units = rows[0].cells, list[str]()
+    if len(rows) > 1 and not any(heading(cell, columns).unit for cell in head):
+        units = rows[1].cells if are_units(rows[1].cells) else []
+    names, factors = _header(head, units, columns, path)
+    rows = [rows[0], *rows[1 + bool(units) :]]
     if len(rows) < 3:
         raise InputError(f"{path}: the table has less than two rows of numbers; {_NEEDED}")
     if not any(rows[-1].cells[1:]):
@@ -317,94 +346,56 @@ def station_columns(rows: list[Row], columns: Sequence[str], path: Path) -> dict
     }
 
 
+_HIGHEST_TITLE = 20
+"""Rows among which headings are looked for, below a title."""
+
+
+def _named(row: Row, columns: Sequence[str]) -> int:
+    """Return how many cells name a column."""
+    return sum(heading(cell, columns).name in columns for cell in row.cells)
+
+
 def read_csv_text(path: Path) -> str:
-    """Return a CSV file as text."""
-    return read_text(path, MOST_CSV_BYTES, "a CSV table")
+    """Return a CSV file as text; where it is not UTF-8 it is what spreadsheets write in Europe."""
+    return read_text(path, MOST_CSV_BYTES, "a CSV table", other="cp1252")
 
 
 def read_cells(path: Path) -> list[Row]:
     """Read the cells of any CSV table, header first; empty rows and ``#`` lines are left out."""
-    return list(_rows(read_csv_text(path), path))
+    return list(rows_of(read_csv_text(path), path))
 
 
 _NEEDED = "it needs a header such as 'x [m], mass_per_length [kg/m], ...' and two rows or more"
 
 
-def _rows(text: str, path: Path) -> Iterator[Row]:
-    """Yield the header and the rows that have anything in them."""
-    count, mark = 0, _separator(text)
-    for line, content in enumerate(text.splitlines(), 1):
-        if content.lstrip().startswith("#"):
-            continue
-        try:
-            row = next(csv.reader([content], delimiter=mark, skipinitialspace=True))
-            cells = [cell.strip() for cell in row]
-        except csv.Error as error:
-            raise InputError(
-                f"{path}, line {line}: no CSV table ({error}); check that it is the right file"
-            ) from error
-        if any(cells):
-            count += 1
-            if count > MOST_ROWS + 1:
-                raise InputError(f"{path}: the table has more than {MOST_ROWS} rows; {_TOO_MANY}")
-            yield Row(line, cells)
+def _header(
+    cells: list[str], units: Sequence[str], columns: Sequence[str], path: Path
+) -> tuple[list[str], list[float]]:
+    """Return the names of the columns and the factors to their SI units.
 
-
-def _separator(text: str) -> str:
-    """Return what separates the cells: the mark that the header has most of."""
-    lines = (
-        line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")
-    )
-    header = next(lines, "")
-    return max(",;\t", key=header.count)
-
-
-def _header(cells: list[str], columns: Sequence[str], path: Path) -> tuple[list[str], list[float]]:
-    """Return the names of the columns and the factors to their SI units."""
+    Units stand in the headings, or in a row of their own.
+    """
     where = f"{path}: header"
     names: list[str] = []
     factors: list[float] = []
-    for cell in cells:
-        name, bracket, unit = _in_brackets(cell).partition("[")
-        name = _column_name(name.strip(), columns)
+    for k, cell in enumerate(cells):
+        name, unit = heading(cell, columns)
         _check_column(name, columns, where)
         if name in names:
             raise InputError(f"{where}: the column {name} stands there twice; remove one")
         names.append(name)
-        factors.append(_factor(name, unit, where) if bracket else 1.0)
+        below = bare_unit(units[k]) if k < len(units) else ""
+        factors.append(_factor(name, unit or below, where) if unit or below not in ("", "-") else 1)
     return names, factors
 
 
-def _in_brackets(cell: str) -> str:
-    """Return a heading with its unit in square brackets: x (mm) as x [mm]."""
-    if cell.endswith(")") and "[" not in cell:
-        name, _, unit = cell[:-1].partition("(")
-        return f"{name.strip()} [{unit}]"
-    return cell
-
-
-_SYMBOLS = {
-    "EI": "bending_stiffness",
-    "EA": "axial_stiffness",
-    "GJ": "torsional_stiffness",
-    "kGA": "shear_stiffness",
-}
-
-
-def _column_name(written: str, columns: Sequence[str]) -> str:
-    """Return the column that a heading means: EI, Bending stiffness; as it is if none."""
-    words = "_".join(written.lower().split())
-    found = (name for name in (written, _SYMBOLS.get(written, ""), words) if name in columns)
-    return next(found, written)
-
-
 def _factor(name: str, unit: str, where: str) -> float:
-    """Return the factor from a column's unit, written up to a closing bracket, to its SI unit."""
+    """Return the factor from a column's unit to its SI unit."""
     si = COLUMN_UNITS[name.partition(":")[0]]
     try:
-        if not unit.endswith("]"):
+        if unit[0] in "[(":
             raise ValueError("the bracket around its unit is not closed")
-        return unit_factor(unit[:-1].strip(), si)
+        return unit_factor(unit, si)
     except ValueError as error:
         raise InputError(f"{where}: column {name}: {error}; write e.g. [{si}]") from error
 

@@ -59,6 +59,22 @@ _TYPED = (
         re.compile(r"=\s*[+-]?[\d.]+\s*[^\W\d_%]"),
         "a number with a unit stands in quotes, '80 m/s'",
     ),
+    (re.compile(r"^\s*(?:%|//|!)"), "a comment begins with #"),
+    (
+        re.compile("[\u200b\u200c\u200d\ufeff]"),
+        "a character that is not seen stands there: type it anew",
+    ),
+    (re.compile("[\u2212\uff0c\uff1d\u2013]"), "use plain - and , and ="),
+    (re.compile(r"^\s*[^=\[]*[\[(][^=]*[\])]\s*="), 'put a key with a unit in quotes, "x [mm]"'),
+    (re.compile(r"[\d.][dD][+-]?\d"), "an exponent begins with e, 1.0e6"),
+    (re.compile(r"\d\s*(?:\*|\^|x\s*10)"), "a power of ten is written 1e6"),
+    (
+        re.compile(r"(?:=|\[|,)\s*[+-]?(?:\.\d|\d+\.(?!\d))"),
+        "a point has digits on both sides: 0.5, 5.0",
+    ),
+    (re.compile(r"\[[^\]]*[\d\"']\s*;"), "commas separate the values of a list"),
+    (re.compile(r"\[[^\]]*\d\s+[+-]?[\d.]"), "commas separate the values of a list"),
+    (re.compile(r"=\s*(?:True|False)\b"), "write true or false"),
     (re.compile(r"^[^=:]*:"), "a value follows '=', not ':'"),
     (re.compile(r"=\s*[A-Za-z]"), "a text stands in quotes"),
 )

@@ -105,6 +105,8 @@ def unit_factor(written: str, unit: str) -> float:
     if known is not None:
         return known
     wrong = f"'{given}' is no unit of {unit}" if unit else "it needs a pure number, without a unit"
+    if "N" in unit and re.search(r"\blbs?\b", written):
+        wrong += ": lb is a mass, the force is lbf"
     if _POWER_OF_POWER.search(written) or _TWO_DIGITS.search(written):
         raise ValueError(wrong)
     registry = _registry()

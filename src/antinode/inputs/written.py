@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import re
 
-_SPACES = "\u00a0\u202f\u2009'"
+_SPACES = "\u00a0\u202f\u2009'\u2019"
 _POINT = re.compile(rf"[+-]?[1-9]\d{{0,2}}(?:[,{_SPACES}]\d{{3}})+(?:\.\d*)?")
 _WHOLE = rf"[+-]?(?:[1-9]\d{{0,2}}(?:[.{_SPACES}]\d{{3}})+|\d+)"
 _COMMA = re.compile(rf"({_WHOLE}),(\d+)((?:[eE][+-]?\d+)?)")
 _THOUSAND = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
+_GROUPS = re.compile(r"[+-]?[1-9]\d{0,2}(?:(?:\.\d{3}){2,}|(?: \d{3})+(?:[.,]\d*)?)")
+_FORTRAN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))[dD]([+-]?\d+)")
 
 
 def number(text: str) -> float:
-    """Read a number: 2.5, 2,5, 1.234,5 or 1,234.5.
+    """Read a number: 2.5, 2,5, 1.234,5 or 1,234.5, 1 000 000, 1.0D+6.
 
     Raises
     ------
@@ -33,6 +35,11 @@ def number(text: str) -> float:
         )
     if _POINT.fullmatch(text):
         return float(re.sub(f"[,{_SPACES}]", "", text))
+    if _GROUPS.fullmatch(text):  # 1.000.000 or 1 000 000
+        groups = text.replace(" ", "")
+        return float(groups.replace(".", "") if " " not in text else groups.replace(",", "."))
+    if found := _FORTRAN.fullmatch(text):
+        return float(f"{found[1]}e{found[2]}")
     if found := _COMMA.fullmatch(text):
         whole = re.sub(f"[.{_SPACES}]", "", found[1])
         return float(f"{whole}.{found[2]}{found[3]}")
@@ -63,7 +70,7 @@ _SIGNS = str.maketrans(
 _RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"
 _PLAIN = str.maketrans(_RAISED, "0123456789-")
 _GLUED = re.compile(r"\b([kMGm]?N|kg|g|t)(mm|cm|m|s)(?![A-Za-z])")
-_KILO = re.compile(r"\bK(?=(?:N|g|m|Pa|Hz)(?![a-z]))")
+_KILO = re.compile(r"\bK(?=(?:Nm?|g|m|Pa|Hz)(?![a-z]))")
 _PASCAL = re.compile(r"\b([kMG])pa\b")
 
 
@@ -77,6 +84,8 @@ def tidy_unit(written: str) -> str:
     """
     unit = re.sub(f"[{_RAISED}]+", lambda found: "^" + found[0].translate(_PLAIN), written)
     unit = unit.replace("**", "^").translate(_SIGNS)
+    unit = re.sub(r"(?<=[A-Za-z\d])[.-](?=[A-Za-z])", " ", unit)  # kN-m^2, kg.m
+    unit = re.sub(r"(?<=[A-Za-z])(?=-\d)", "^", unit)  # kg m-1
     unit = _KILO.sub("k", unit)
     unit = _PASCAL.sub(r"\1Pa", unit)
     unit = _GLUED.sub(r"\1 \2", re.sub(r"(?<=[A-Za-z])(?=\d)", "^", unit))
