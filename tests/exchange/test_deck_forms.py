@@ -182,3 +182,11 @@ def test_a_matrix_that_the_case_control_chooses(tmp_path):
             read(
                 tmp_path, GRIDS, BARS, REST, card + "\n", head=HEAD.replace("CEND", f"CEND\n{line}")
             )
+
+
+def test_scalar_points_of_a_larger_model_do_not_matter(tmp_path):
+    more = "SPOINT,900\nSPC,7,900,,0.\nCELAS2,50,1.+3,900,,2,2\nSPC,7,3,,0.\n"
+    beam, _ = read(tmp_path, GRIDS, BARS, REST, more, elements=(range(1, 3),))
+    assert first(beam) == pytest.approx(FIRST, rel=1e-8)
+    with pytest.raises(InputError, match="names no freedoms"):
+        read(tmp_path, GRIDS, BARS, REST, "SPC,7,3,,0.\n")

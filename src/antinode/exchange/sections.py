@@ -200,7 +200,7 @@ def _concentrated(
                 f"{where}: a second table, of {', '.join(names[1:])}, cannot be read; known is one "
                 "of concentrated masses, e.g. TwCMass: remove the other"
             )
-        units = lines[number + 1].split() if number + 1 < len(lines) else []
+        units = _units(lines[number + 1]) if number + 1 < len(lines) else []
         units = units if units and units[0].startswith("(") else []
         factor = _si(units[1], "kg", f"{where}: column {names[1]}") if len(units) > 1 else 1.0
         rows = _rows(lines, number + 1 + bool(units), 2)
@@ -258,7 +258,7 @@ def _columns(
     for name in needed:
         if name not in names:
             raise InputError(f"{path}, line {head + 1}: there is no column {name}; add it")
-    units = lines[head + 1].split() if head + 1 < len(lines) else []
+    units = _units(lines[head + 1]) if head + 1 < len(lines) else []
     start = head + 1 + (bool(units) and units[0].startswith("("))
     factors = _factors(names, units, kind, path, head + 2) if start > head + 1 else {}
     rows = _rows(lines, start, len(names))
@@ -269,6 +269,11 @@ def _columns(
     table = np.array(rows)
     columns = {n: table[:, i] * factors.get(n, 1.0) for i, n in enumerate(names)}
     return columns, start + len(rows)
+
+
+def _units(line: str) -> list[str]:
+    """Return the units of a line, with their parentheses, in which blanks may stand."""
+    return re.findall(r"\([^()]*\)", line) if line.lstrip().startswith("(") else line.split()
 
 
 def _rows(lines: Sequence[str], start: int, width: int) -> list[list[float]]:

@@ -21,7 +21,7 @@ from antinode.errors import InputError
 from .cards import Card
 from .deck import Subcase
 from .line import SAME, Line, left_end, linked, right_end
-from .lumped import Lumps
+from .lumped import Lumps, moving_ends
 from .model import Elastic, Model
 
 _ENDS: dict[tuple[bool, bool], End] = {
@@ -229,11 +229,7 @@ def axial_force_of_strings(model: Model, line: Line) -> Array:
 
 def _to_ground(model: Model, line: Line, spring: Elastic) -> Elastic:
     """Return a spring without those of its ends that are held and bear no element: the ground."""
-    free = [
-        (grid, freedom)
-        for grid, freedom in spring.ends
-        if grid in line.node or set(model.grid(grid, spring.card).held) < set("123456")
-    ]
+    free = moving_ends(model, line, spring)
     return replace(spring, ends=tuple(free)) if free else spring
 
 

@@ -122,7 +122,7 @@ def _bedding(model: Model, line: Line) -> dict[int, tuple[Card, float]]:
     """Return the springs sideways to the ground, if they are many."""
     found: dict[int, tuple[Card, float]] = {}
     for spring in model.springs:
-        ends = _moving(model, line, spring)
+        ends = moving_ends(model, line, spring)
         if len(ends) == 1 and ends[0][0] in line.node and spring.k > 0:
             grid, freedom = ends[0]
             if str(freedom) == _lateral(line, grid, spring.card):
@@ -130,13 +130,21 @@ def _bedding(model: Model, line: Line) -> dict[int, tuple[Card, float]]:
     return found if len(found) >= FINE else {}
 
 
-def _moving(model: Model, line: Line, spring: Elastic) -> Sequence[tuple[int, int]]:
-    """Return the ends of a spring but those that are held and bear no element."""
-    return [
-        (grid, freedom)
-        for grid, freedom in spring.ends
-        if grid in line.node or set(model.grid(grid, spring.card).held) < set("123456")
-    ]
+def moving_ends(model: Model, line: Line, spring: Elastic) -> Sequence[tuple[int, int]]:
+    """Return the ends of a spring but those that are held and bear no element.
+
+    Raises
+    ------
+    InputError
+        If there is no such grid; of a larger model it may be a scalar point.
+    """
+
+    def moves(grid: int) -> bool:
+        if grid in line.node or (model.wanted and grid not in model.grids):
+            return True
+        return set(model.grid(grid, spring.card).held) < set("123456")
+
+    return [(grid, freedom) for grid, freedom in spring.ends if moves(grid)]
 
 
 def _spread(line: Line, lumps: Mapping[int, float], x: Array, *, by_node: bool) -> Array:

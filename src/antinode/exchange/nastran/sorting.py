@@ -292,8 +292,11 @@ def _spc1(model: Model, card: Card) -> None:
 
 
 def _support(model: Model, card: Card, grid: int, freedoms: str) -> None:
+    if not freedoms and grid not in model.grids:
+        return  # a scalar point
     if not freedoms:
-        raise card.error("it names no freedoms; 1 to 6 may be held")
+        _unread(model, card, "it names no freedoms; 1 to 6 may be held")
+        return
     model.supports.append((card.integer(1), grid, freedoms, card))
 
 
