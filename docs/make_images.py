@@ -23,11 +23,13 @@ from antinode import (
     solve_modes,
     sweep,
 )
+from antinode.show.end_forces import plot_end_forces
 from antinode.show.figures import PALETTE, plot_case, plot_loads, plot_modes, save
 from antinode.show.style import BODY, GREY, INK, WIDTH, styled
 from antinode.study.sensitivity.command import read_uncertain
 from antinode.study.sensitivity.command import tornado as plot_tornado
 from antinode.study.sweep.figures import plot_sweep
+from antinode.vehicle.end_forces import compare_end_forces
 
 ROOT = Path(__file__).resolve().parents[1]
 IMAGES = ROOT / "docs" / "images"
@@ -55,6 +57,15 @@ def howto() -> None:
         file = load_beam(EXAMPLES / name / "beam.toml")
         result = solve_modes(file, file.solve.modes, tolerance=file.solve.tolerance)
         save(plot_modes(result), IMAGES / f"howto_{name}.png")
+
+
+def end_forces() -> None:
+    """Draw what the ends of the starter vehicle may do, and what that does to bending 1."""
+    case = load_case(STARTER)
+    result = solve_modes(case)
+    shape = result.mode("bending", 1).shape
+    figure = plot_end_forces(result.x, shape, compare_end_forces(case, result))
+    save(figure, IMAGES / "howto_end_forces.png")
 
 
 def sweeps() -> None:
@@ -237,6 +248,7 @@ MAKERS = (
     starter_modes,
     ruler_modes,
     howto,
+    end_forces,
     sweeps,
     tornado,
     speed_sweep,

@@ -18,15 +18,59 @@ OWN = {
     "longitudinal": [56.55697303, 113.5469604, 164.2256962, 210.8751982, 256.0302507, 302.6506962],
 }
 GROWTH = 6.841455312  # of the rigid rotation [1/s]
+FIXED = ["--set", "model.end_force=fixed_direction"]
+# The same where thrust and cavitator turn with the body, as the file says.
+FOLLOWING = [3.800575615, 10.81839207, 20.91013265, 33.58028936, 48.24507169, 65.33387945]
+ROTATION = 0.22551228  # [Hz]
 
 
 @pytest.fixture(scope="module")
-def modes(tmp_path_factory):
+def case(tmp_path_factory):
     folder = tmp_path_factory.mktemp("starter")
     subprocess.run([ANTINODE, "init", folder], check=True, capture_output=True)
-    case = folder / "case.toml"
-    done = subprocess.run([ANTINODE, "modes", case, "--json"], check=True, capture_output=True)
-    return json.loads(done.stdout)["modes"]
+    return folder / "case.toml"
+
+
+def solved(case, *more):
+    command = [ANTINODE, "modes", case, "--json", *more]
+    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+
+
+@pytest.fixture(scope="module")
+def modes(case):
+    return solved(case, *FIXED)["modes"]
+
+
+@pytest.fixture(scope="module")
+def following(case):
+    return solved(case)
+
+
+def test_what_the_file_says_is_that_the_end_forces_follow(following):
+    assert frequencies(following["modes"], "bending") == pytest.approx(FOLLOWING, rel=1e-6)
+    rotation = following["modes"][1]
+    assert (rotation["name"], rotation["kind"]) == ("rigid rotation", "rigid")
+    assert rotation["frequency_hz"] == pytest.approx(ROTATION, rel=1e-5)
+    assert following["certificate"]["kind"] == "winding"
+    assert following["notes"] == []
+
+
+def test_every_choice_of_the_end_forces_stands_beside_the_files_own(following, modes):
+    found = {choice["name"]: choice for choice in following["end_forces"]}
+    assert list(found) == ["thrust and cavitator follow", "fixed directions", "thrust follows"]
+    assert all(choice["proven"] for choice in found.values())
+    fixed = found["fixed directions"]["frequencies_hz"]
+    assert fixed == pytest.approx(frequencies(modes, "bending"), rel=1e-7)
+    assert found["thrust follows"]["frequencies_hz"][0] == pytest.approx(3.72613043, rel=1e-6)
+
+
+def test_a_case_that_does_not_say_gets_a_note(case):
+    text = case.read_text(encoding="utf-8")
+    silent = case.with_name("silent.toml")
+    silent.write_text(text.replace('end_force = "follows_body"', ""), encoding="utf-8")
+    found = solved(silent)
+    assert ["end_force" in note for note in found["notes"]] == [True]
+    assert frequencies(found["modes"], "bending") == pytest.approx(FOLLOWING, rel=1e-6)
 
 
 def frequencies(modes, family):

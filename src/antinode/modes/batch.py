@@ -80,9 +80,9 @@ class BeamBatch(ByValue):
         `mass_per_length` and `axial_stiffness`, torsion the last two.
     axial_stiffness, torsional_stiffness, polar_inertia_per_length : array, (n,) or (beams, n)
         EA [N], GJ [N m^2] and rho I_p [kg m].
-    end_force : array, shape (2,) or (beams, 2), optional
-        The forces at both ends of which `ends` lets a share turn with the end [N]; by default N of
-        the first and the last segment.
+    following : array, shape (2,) or (beams, 2), optional
+        The part of the forces at both ends that turns with them [N]; by default the shares of
+        `ends` times N of the first and the last segment.
     shear_stiffness, rotary_inertia_per_length, foundation_stiffness, added_mass_per_length : array
         Of bending, as the others, optional: kGA [N], or inf; rho I [kg m]; [N/m^2]; [kg/m]. A
         foundation holds every beam of a batch, or none.
@@ -111,7 +111,7 @@ class BeamBatch(ByValue):
     axial_stiffness: Array | None = None
     torsional_stiffness: Array | None = None
     polar_inertia_per_length: Array | None = None
-    end_force: Array | None = None
+    following: Array | None = None
     shear_stiffness: Array | None = None
     rotary_inertia_per_length: Array | None = None
     foundation_stiffness: Array | None = None
@@ -296,11 +296,9 @@ def _settle(solver: Backend, batch: BeamBatch, found: ChainRoots) -> None:
 def _solve(solver: Backend, batch: BeamBatch) -> ChainRoots:
     """Solve chain after chain; where loads alone vary, by guesses from a few of them."""
     below, chains = _rigid(batch), _chains(batch)
-    if chains.following is not None:
-        return ChainRoots.empty(len(chains), batch.modes, BY_ITSELF)
     guess = None
     if batch._one_structure and chains.more is None and solver.name != "numpy":
-        guess = guess_omega2(chains.axial_force, lambda N: _exact(batch, N))
+        guess = guess_omega2(_forces(chains), lambda forces: _exact(batch, chains, forces))
     if guess is None:
         return solver.solve_chains(chains, below, batch.modes, _WIDTH)
     found = solver.certify_guesses(chains, guess, below, _WIDTH)
@@ -335,10 +333,11 @@ def _chains(batch: BeamBatch) -> Chains:
 def _following(batch: BeamBatch, N: Array) -> Array | None:
     """Return what turns with the ends of every beam [N], None where nothing does."""
     shares = np.array(batch.ends.follow)
-    if not shares.any() or not FAMILIES[batch.family].law.has_axial_force:
+    if not FAMILIES[batch.family].law.has_axial_force:
         return None
-    outside = N[:, [0, -1]] if batch.end_force is None else batch.end_force
-    return np.ascontiguousarray(np.broadcast_to(shares * outside, (len(N), 2)))
+    if batch.following is None:
+        return np.ascontiguousarray(shares * N[:, [0, -1]]) if shares.any() else None
+    return np.ascontiguousarray(np.broadcast_to(batch.following, (len(N), 2)), dtype=float)
 
 
 def _more(batch: BeamBatch, N: Array) -> dict[str, Array] | None:
@@ -357,11 +356,20 @@ def _more(batch: BeamBatch, N: Array) -> dict[str, Array] | None:
     return {"shear": none, "rotary_inertia": none, "foundation": none} | columns
 
 
-def _exact(batch: BeamBatch, force: Array) -> Array:
+def _forces(chains: Chains) -> Array:
+    """Return N of every segment, and what turns with the ends beside it, shape (chains, ...)."""
+    if chains.following is None:
+        return chains.axial_force
+    return np.concatenate([chains.axial_force, chains.following], axis=1)
+
+
+def _exact(batch: BeamBatch, chains: Chains, forces: Array) -> Array:
     """Return omega^2 of the batch's structure under other forces, NaN where it is not certain."""
-    family = FAMILIES[batch.family]
+    family, n = FAMILIES[batch.family], chains.axial_force.shape[1]
+    force, following = forces[:, :n], forces[:, n:] if chains.following is not None else None
     structure = {name: getattr(batch, name)[0] for name in ("length", *family.tables)}
-    some = replace(batch, **structure | {family.columns["axial_force"]: force})
+    told = structure | {family.columns["axial_force"]: force, "following": following}
+    some = replace(batch, **told)
     object.__setattr__(some, "_one_structure", False)
     return solve_many(some).omega2
 

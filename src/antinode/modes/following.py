@@ -126,6 +126,13 @@ def _freed(found: list[Eigenvalue]) -> list[Eigenvalue]:
     ]
 
 
+def energies_of_modes(backend: Backend, chain: Chain, states: Array, omega2: Array) -> Energies:
+    """Return the energies of modes, between right and left eigenvectors where these differ."""
+    if not chain.follows:
+        return backend.mode_energies(chain, states, omega2)
+    return two_sided_energies(backend, chain, states, omega2)
+
+
 def two_sided_energies(backend: Backend, chain: Chain, right: Array, omega2: Array) -> Energies:
     """Return the energies of modes between right and left eigenvectors.
 

@@ -154,7 +154,7 @@ def _by_modes(beam: Beam, modes: int, tolerance: float, backend: BackendName) ->
 
 def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Frequencies | None:
     """Solve with steps halved until two extrapolated results agree; None where that fails."""
-    if beam.is_curved or FAMILIES[BENDING].used(beam) or any(beam.following()):
+    if beam.is_curved or FAMILIES[BENDING].used(beam):
         return None
     held: tuple[str, str, tuple[Point, ...]] = beam.ends.left, beam.ends.right, ()
     rigid, acceleration, mass_left = rigid_modes_of(beam.ends, BENDING), 0.0, _NOT_READ
@@ -173,6 +173,7 @@ def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Freq
         left=left,
         right=right,
         points=points,
+        following=beam.following(),
     )
     refinement = max(1, (modes + rigid) // _MODES_PER_REFINEMENT)
     found = solver.solve_beam(tables, rigid, modes, refinement, float(tolerance), _WIDTH)

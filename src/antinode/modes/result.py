@@ -14,7 +14,7 @@ from antinode.arguments import ByValue, choice, numbers
 from antinode.arrays import Array
 from antinode.beam.attachments import attachment_dict
 from antinode.beam.beam import Beam
-from antinode.beam.families import BENDING, FAMILIES, FamilyName
+from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
 from antinode.riccati.chain import Chain
 from antinode.riccati.shapes import propagate
@@ -341,9 +341,7 @@ def _mode_dict(mode: Mode, follows: bool) -> dict[str, Any]:
         "damping_ratio": null(mode.damping_ratio),
         "growth_rate_per_s": s.real,
     }
-    return _plain_dict(mode) | (
-        of_pair if follows and FAMILIES[mode.family].law.has_axial_force else {}
-    )
+    return _plain_dict(mode) | (of_pair if follows else {})
 
 
 def _plain_dict(mode: Mode) -> dict[str, Any]:

@@ -22,13 +22,14 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import ComputationError, InputError
-from antinode.riccati.chain import Chain, omega2_scale
+from antinode.riccati.chain import omega2_scale
 from antinode.riccati.roots import Eigenvalue
-from antinode.riccati.shapes import Energies, split_for
+from antinode.riccati.shapes import split_for
 from antinode.text import short
 
 from .backends import Backend, BackendName, choose, for_one
 from .brackets import ROUNDING, cancelling
+from .following import energies_of_modes
 from .naming import name_modes, with_joint_brackets
 from .refinement import NEAR_ZERO, Solved, solve_family
 from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
@@ -208,7 +209,7 @@ def _modes_of(
     omega2 = np.array([solved.eigenvalues[k].value for k in keep])
     chain = split_for(chain, np.abs(omega2))
     states = shapes(backend, beam, chain, solved.eigenvalues, keep, names)
-    energies = _energies(backend, chain, states, omega2)
+    energies = energies_of_modes(backend, chain, states, omega2)
     scale = normalising_factors(chain, states, omega2, np.abs(energies.mass), normalisation)
     states = states * scale[:, None]
     at_grid = on_grid(chain, states, omega2, places).real
@@ -227,15 +228,6 @@ def _modes_of(
     if chain.follows:
         return rows, Solution(chain, omega2, states)
     return with_joint_brackets(rows), Solution(chain, omega2, states)
-
-
-def _energies(backend: Backend, chain: Chain, states: Array, omega2: Array) -> Energies:
-    """Return the energies of modes, between right and left eigenvectors where these differ."""
-    if not chain.follows:
-        return backend.mode_energies(chain, states, omega2)
-    from .following import two_sided_energies
-
-    return two_sided_energies(backend, chain, states, omega2)
 
 
 def _mode(

@@ -23,6 +23,11 @@ ROTATION_DIVERGES = (
     "rigid rotation is divergent (omega^2 < 0), as for every free body in net compression by "
     "forces of fixed direction; control of the attitude is outside this model"
 )
+ROTATION_NOT_TURNED_BACK = (
+    "rigid rotation is divergent (omega^2 < 0): the forces that keep their direction turn the body "
+    "on by more than those that follow it turn it back; control of the attitude is outside this "
+    "model"
+)
 SHEAR_BUCKLES = (
     "to first order shear and rotary inertia would lower omega^2 below zero (the frequency by "
     f"{_MOST:.0%} or more): in truth the mode may be past buckling"
@@ -46,6 +51,8 @@ LOWEST_DIVERGES = (
 
 def _rotation_warning(beam: Beam) -> str:
     """Say why the rotation of a body that may turn diverges."""
+    if any(beam.following()):
+        return ROTATION_NOT_TURNED_BACK
     net, h = beam.axial_force.sum(axis=1) / 2, beam.x[1:] - beam.x[:-1]
     if beam.axial_acceleration:
         k = np.arange(len(h))

@@ -115,6 +115,8 @@ class Tables(NamedTuple):
     right: str
     points: Sequence[Point]
     """Their nodes are numbers of breakpoints."""
+    following: tuple[float, float] = (0.0, 0.0)
+    """What turns with the ends [N] (`riccati.following`)."""
 
 
 class BeamRoots(NamedTuple):

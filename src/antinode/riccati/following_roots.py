@@ -96,7 +96,13 @@ class Finder:
         Relative width of brackets in omega^2.
     """
 
-    def __init__(self, chain: Chain, fixed: FixedEigenvalues, zeros: int, width: float) -> None:
+    def __init__(
+        self,
+        chain: Chain,
+        fixed: FixedEigenvalues,
+        zeros: int,
+        width: float,
+    ) -> None:
         self.following, self.fixed, self.zeros, self.width = Following(chain), fixed, zeros, width
         self.scale = omega2_scale(chain)
 
@@ -110,7 +116,7 @@ class Finder:
             floor *= 10
             keep = np.abs(places) > floor
             brackets = _changes(places[keep], values[keep])
-        found = self._real(brackets)
+        found = self.shrink(brackets)
         found += [Eigenvalue(0, 0.0, (-floor, floor), (0, 0))] * self.zeros
         if len(brackets) < missing:
             found += self._missing(missing - len(brackets), found, poles, certificate.below)
@@ -131,7 +137,7 @@ class Finder:
             low = max(low, 0.0)
             for share in (0.5, 0.35, 0.65):
                 R = (low**0.25 + (high**0.25 - low**0.25) * share) ** 4
-                found = self._turns(R, low, high, poles[0].bracket[0])
+                found = self.turns(R, low, high, poles[0].bracket[0])
                 certificate = Certificate(R, below, found.number, found.samples, found.margin)
                 if found.proven and certificate.number >= wanted:
                     return certificate, poles
@@ -142,7 +148,7 @@ class Finder:
             raise CountingError("no line was found above the eigenvalues that are wanted")
         return best, poles
 
-    def _turns(self, R: float, low: float, high: float, lowest: float) -> Turns:
+    def turns(self, R: float, low: float, high: float, lowest: float) -> Turns:
         """Count turns of g along a line in a gap between eigenvalues of fixed directions."""
         distance = 1.5 * max(R, -2 * lowest)
         while True:
@@ -187,7 +193,7 @@ class Finder:
         sign = np.sign(places) if self.zeros % 2 else 1.0
         return np.asarray(self.following.values(places) * sign)
 
-    def _real(self, brackets: list[Bracket]) -> list[Eigenvalue]:
+    def shrink(self, brackets: list[Bracket]) -> list[Eigenvalue]:
         """Shrink brackets to their width, all side by side."""
         if not brackets:
             return []
@@ -310,7 +316,7 @@ class Finder:
         values = self.divided(np.concatenate([root - step, root + step]))
         below, above = values[: len(step)], values[len(step) :]
         apart = np.flatnonzero(below * above < 0)[:1]
-        return self._real([(root - step[k], root + step[k], below[k], above[k]) for k in apart])
+        return self.shrink([(root - step[k], root + step[k], below[k], above[k]) for k in apart])
 
     def _together(self, root: complex, poles: list[Eigenvalue]) -> list[Eigenvalue]:
         """Enclose two eigenvalues that are too near each other, and to the axis, to tell apart."""

@@ -10,6 +10,7 @@ import numpy as np
 
 from antinode.beam.plausible import doubts
 from antinode.extras import import_extra
+from antinode.vehicle.end_forces import compare_end_forces
 from antinode.vehicle.statics import deflection_warnings
 from antinode.version import __version__
 
@@ -140,6 +141,8 @@ def modes_dict(case: Case, result: ModalResult) -> dict[str, Any]:
     data = result.to_dict()
     data["condition"], data["loads"] = condition_dict(case), loads_summary(case)
     data["warnings"] = [*case.loads.warnings, *data["warnings"]]
+    data["notes"] = list(case.notes)
+    data["end_forces"] = [choice.to_dict() for choice in compare_end_forces(case, result)]
     return data
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections import Counter
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,11 +25,13 @@ if TYPE_CHECKING:
     from antinode.modes.buckling import Buckling
     from antinode.modes.verify import Check
     from antinode.vehicle.case import Case
+    from antinode.vehicle.end_forces import Choice
     from antinode.vehicle.statics import StaticShape
 
 _WIDTH = 104
 _LEAST_WIDTH = 60
 _LONGEST_NAME = 80
+_MOST_SHOWN = 6  # frequencies for each choice of the end forces
 _MOST_LISTED = 4  # attachments that are shown one by one
 
 
@@ -64,11 +66,18 @@ def _row(table: Table, *cells: str) -> None:
     table.add_row(*(Text(cell) for cell in cells))
 
 
-def show_modes(out: Console, result: ModalResult, warnings: Sequence[str] = ()) -> None:
-    """Print the table of modes, then all warnings and what the model leaves out."""
+def show_modes(
+    out: Console,
+    result: ModalResult,
+    warnings: Sequence[str] = (),
+    beside: Callable[[], None] | None = None,
+) -> None:
+    """Print the table of modes and what stands beside it, warnings, and what is left out."""
     if result.beam.is_timoshenko:
         out.print(f"[dim]{_theory_text(result.beam)}[/dim]", highlight=False)
     out.print(modes_table(result, out))
+    if beside is not None:
+        beside()
     if result.method == "tmm":
         out.print(f"[dim]{_BY_TMM}[/dim]", highlight=False)
     show_warnings(out, [*warnings, *result.warnings])
@@ -205,6 +214,8 @@ def show_condition(out: Console, case: Case) -> None:
         f"{loads.checks.worst:.0e}",
         highlight=False,
     )
+    for note in case.notes:
+        out.print(f"[dim]note:[/dim] {escape(note)}", highlight=False)
 
 
 def _drag_text(case: Case) -> str:
@@ -229,9 +240,34 @@ def _condition_text(case: Case) -> str:
         f"body {math.degrees(c.body_angle):.4g} deg" if c.body_angle else "",
         f"T = {c.thrust / 1e3:g} kN",
         f"fins at {c.fin_position:g} m" if case.vehicle.fins and c.fin_position is not None else "",
+        end_force_text(case.model.follow),
         f"burnt {c.burn_fraction:.0%}" if len(case.vehicle.stations.mass_per_length) > 1 else "",
     ]
     return ", ".join(part for part in parts if part)
+
+
+def end_force_text(follow: tuple[float, float]) -> str:
+    """Return what the end forces do in a few words; shares of the cavitator's drag and thrust."""
+    words = {
+        (0.0, 0.0): "end forces of fixed direction",
+        (0.0, 1.0): "thrust follows the body",
+        (1.0, 1.0): "end forces follow the body",
+    }
+    nose, tail = follow
+    return words.get(follow, f"follow the body: thrust {tail:g}, cavitator {nose:g}")
+
+
+def show_end_forces(out: Console, choices: Sequence[Choice]) -> None:
+    """Print the bending frequencies for every choice of the end forces, a row each."""
+    if not choices:
+        return
+    shown = min(len(choices[0].frequencies_hz), _MOST_SHOWN)
+    table = new_table("bending f [Hz], if", *map(str, range(1, shown + 1)))
+    for choice in choices:
+        values = [f"{f:.4f}" if math.isfinite(f) else "" for f in choice.frequencies_hz[:shown]]
+        marks = "" if choice.proven else " (not proven)"
+        _row(table, choice.name + (" (this file)" if choice.stated else marks), *values)
+    out.print(table)
 
 
 def _plain(name: str) -> str:

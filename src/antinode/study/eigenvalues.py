@@ -17,11 +17,14 @@ from antinode.beam.beam import Beam
 from antinode.beam.ends import FREE
 from antinode.beam.families import FAMILIES, FamilyName
 from antinode.errors import ComputationError
+from antinode.modes.backends import choose
 from antinode.modes.batch import BeamBatch, solve_many
+from antinode.modes.following import eigenvalues_alone
 from antinode.modes.hertz import signed_hertz
 from antinode.modes.rigid import elastic, rigid_modes_of, zeros_of
 from antinode.riccati.chain import Chain
-from antinode.riccati.roots import CountingError, find_eigenvalues
+from antinode.riccati.reasons import FLUTTERS
+from antinode.riccati.roots import CountingError
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import ChainModes, EigenvalueDerivatives
 from antinode.vehicle.loads import Loads
@@ -88,8 +91,9 @@ def _side_by_side(chains: Sequence[Chain], numbers: Sequence[int]) -> list[Array
     for size in set(sizes):
         rows = [k for k, n in enumerate(sizes) if n == size]
         batch = _batch([chains[k] for k in rows], max(numbers[k] for k in rows))
-        for k, values in zip(rows, solve_many(batch).omega2, strict=True):
-            known = bool(np.all(np.isfinite(values)))
+        solved = solve_many(batch)
+        for k, values, reason in zip(rows, solved.omega2, solved.reason, strict=True):
+            known = bool(np.all(np.isfinite(values))) and reason != FLUTTERS
             found[k] = values[: numbers[k]] if known else _solve(chains[k], numbers[k])
     return found
 
@@ -108,18 +112,27 @@ def _batch(chains: Sequence[Chain], modes: int) -> BeamBatch:
     }
     tables |= sheared_columns(more)
     length = np.stack([chain.length for chain in chains])
-    return BeamBatch(length, modes=modes, family=family.name, **tables)
+    ends = np.array([chain.following for chain in chains])
+    following = ends if ends.any() else None
+    return BeamBatch(length, modes=modes, family=family.name, following=following, **tables)
 
 
 def _solve(chain: Chain, number: int) -> Array:
     """Return the eigenvalues 1 ... n of a free chain, after its rigid modes."""
     rigid = rigid_modes_of(FREE, chain.family)
     try:
-        found = find_eigenvalues(chain, number + rigid, zeros=zeros_of(FREE, chain))
+        zeros = zeros_of(FREE, chain)
+        found = eigenvalues_alone(choose(), chain, number + rigid, zeros, 1e-10)
     except (CountingError, FloatingPointError) as error:
         wrong = f"the {chain.family} eigenvalues could not be found: {error}"
         raise ComputationError(wrong) from error
-    return np.array([value.omega2 for value in elastic(found, rigid)[:number]])
+    wanted = elastic(found, rigid, chain)[:number]
+    if any(value.imaginary for value in wanted):
+        raise ComputationError(
+            f"a pair of {chain.family} modes flutters; only modes that oscillate steadily have "
+            "derivatives here: reduce the forces that follow"
+        )
+    return np.array([value.omega2 for value in wanted])
 
 
 def sufficient_refinement(case: Case, wanted: Wanted, tolerance: float) -> int:

@@ -57,6 +57,17 @@ class Case(Frozen):
         """Cavity, forces, accelerations and internal forces in this condition."""
         return compute_loads(self.vehicle, self.condition, self.water, self.model)
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader should know of choices that the file leaves open."""
+        if self.model.is_end_force_stated:
+            return ()
+        return (
+            "the file does not say what the end forces do, so thrust and the cavitator's drag turn "
+            "with the body; in earlier versions they kept their direction, which lowers the first "
+            'frequency: state [model] end_force = "follows_body" or "fixed_direction"',
+        )
+
     def many(self, numbers: Numbers, cases: int) -> ManyCases:
         """Return cases that differ from this one in some numbers."""
         return ManyCases(

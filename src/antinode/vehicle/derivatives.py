@@ -5,7 +5,10 @@ With a mode Y of unit modal mass, to first order and exactly
     d(omega^2) = int dEI Y''^2 - int dN Y'^2 - omega^2 int dm Y^2,
 
 and moving the place x_i of a drag F_i changes omega^2 by F_i Y'(x_i)^2 (compression and drag aft
-are positive). N is linear in the forces, and goes with the mass ahead through the acceleration:
+are positive). Where forces at the ends follow the body, every square is the product of the mode
+with its left eigenvector w, modal mass included, and what follows adds ``d kappa_tail Y'(L) w(L) -
+d kappa_nose Y'(0) w(0)``. N is linear in the forces, and goes with the mass ahead through the
+acceleration:
 
     N(x) = sum_i F_i [x > x_i] + a_X m_ahead(x),   a_X = (T - sum_i F_i) / m.
 
@@ -30,6 +33,7 @@ from antinode.beam.families import FAMILIES, FamilyName
 from antinode.beam.mass import moments_within
 from antinode.beam.profile import Profile
 from antinode.modes.backends import BackendName, choose
+from antinode.modes.following import left_states
 from antinode.riccati.chain import Chain, largest_wave_number
 from antinode.riccati.shapes import propagate
 
@@ -95,9 +99,23 @@ class ChainModes:
     @cached_property
     def _at_points(self) -> Array:
         """States at the Gauss points, shape (q, k, s)."""
-        start, length = self.states[:-1], self.chain.length
+        return self._between(self.states)
+
+    def _between(self, states: Array) -> Array:
+        start, length = states[:-1], self.chain.length
         parts = [propagate(self.chain, start, self.omega2, t * length) for t in self._rule[0]]
         return np.stack(parts, axis=1).reshape(len(self.x), *start.shape[1:])
+
+    @cached_property
+    def left_states(self) -> Array:
+        """Of the left eigenvectors at the nodes; the modes' own where no end force follows."""
+        if not self.chain.follows:
+            return self.states
+        return left_states(choose(self.backend), self.chain, self.states, self.omega2)
+
+    @cached_property
+    def _left_at_points(self) -> Array:
+        return self._between(self.left_states) if self.chain.follows else self._at_points
 
     @cached_property
     def _weights(self) -> Array:
@@ -105,10 +123,10 @@ class ChainModes:
 
     @cached_property
     def _modal_mass(self) -> Array:
-        mass = self._column("mass") * self._weights @ self._at_points[..., 0] ** 2
+        mass = self._column("mass") * self._weights @ self._product(0)
         if "rotary_inertia" in self.chain.columns:
             rotary = self._column("rotary_inertia") * self._weights
-            mass = mass + rotary @ self._at_points[..., 1] ** 2
+            mass = mass + rotary @ self._product(1)
         return np.asarray(mass)
 
     def _column(self, name: str) -> Array:
@@ -122,29 +140,37 @@ class ChainModes:
     @cached_property
     def by_rotary_inertia(self) -> Array:
         """Weights of d(rho I)(x), shape (q, k)."""
-        return -self.omega2 * self._over_mass(self._at_points[..., 1] ** 2)
+        return -self.omega2 * self._over_mass(self._product(1))
 
     @cached_property
     def by_foundation(self) -> Array:
         """Weights of dk(x), shape (q, k)."""
-        return self._over_mass(self._at_points[..., 0] ** 2)
+        return self._over_mass(self._product(0))
 
     @cached_property
     def by_shear_stiffness(self) -> Array:
         """Weights of dkGA(x), shape (q, k): the squares of the shear angle."""
-        return self._over_mass((self._slopes - self._at_points[..., 1]) ** 2)
+        return self._over_mass(self._shear_angles)
 
     @cached_property
     def _slopes(self) -> Array:
-        """Y' at the Gauss points, shape (q, k)."""
+        """Y' at the Gauss points, of modes and of left eigenvectors, shape (2, q, k)."""
         names = (name for name in ("shear", "shear_turn") if name in self.chain.columns)
         columns = {name: self._column(name)[:, None] for name in names}
-        return self.chain.law.slope(columns, self._at_points)
+        both = self._at_points, self._left_at_points
+        return np.stack([self.chain.law.slope(columns, z) for z in both])
+
+    @property
+    def _shear_angles(self) -> Array:
+        """Products of the shear angles at the Gauss points, shape (q, k)."""
+        right, left = self._slopes
+        off = right - self._at_points[..., 1]
+        return np.asarray(off * (left - self._left_at_points[..., 1]))
 
     @cached_property
     def by_mass(self) -> Array:
         """Weights of dm(x) in d(omega^2), without its share in N, shape (q, k)."""
-        square = self._weights[:, None] * self._at_points[..., 0] ** 2
+        square = self._weights[:, None] * self._product(0)
         return np.asarray(-self.omega2 * square / self._modal_mass)
 
     @cached_property
@@ -152,22 +178,37 @@ class ChainModes:
         """Weights of dN(x), shape (q, k); zero longitudinally."""
         if not self.chain.law.has_axial_force:
             return np.zeros((len(self.x), len(self.omega2)))
-        square = self._slopes**2
+        square = self._slopes[0] * self._slopes[1]
         if self.shear_form == "haringx":
-            square = square - (self._slopes - self._at_points[..., 1]) ** 2
+            square = square - self._shear_angles
         return -self._over_mass(square)
 
     def by_stiffness(self, stiffness: Array) -> Array:
         """Weights of dEI(x) or dEA(x), given what it is at the Gauss points, shape (q, k)."""
-        force = self._at_points[..., self.chain.law.size // 2]
-        square = self._weights[:, None] * (force / stiffness[:, None]) ** 2
+        force = self._product(self.chain.law.size // 2)
+        square = self._weights[:, None] * force / (stiffness[:, None] ** 2)
         return np.asarray(square / self._modal_mass)
+
+    def _product(self, component: int) -> Array:
+        """Return products of mode and left eigenvector at the Gauss points, shape (q, k)."""
+        right, left = (z[..., component] for z in (self._at_points, self._left_at_points))
+        return np.asarray(right * left)
+
+    @cached_property
+    def by_following(self) -> Array:
+        """Weights of what turns with the nose and with the tail [rad^2/s^2/N], shape (2, k)."""
+        turn, move = self.states[..., 1], self.left_states[..., 0]
+        signed = np.stack([-turn[0] * move[0], turn[-1] * move[-1]])
+        return np.asarray(signed / self._modal_mass)
 
     def at(self, x: Array) -> Array:
         """Return the states at places between nose and tail [m], shape (points, k, s)."""
+        return self._at(self.states, x)
+
+    def _at(self, states: Array, x: Array) -> Array:
         nodes = self.chain.nodes
         k = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, len(nodes) - 2)
-        return propagate(self.chain, self.states[k], self.omega2, x - nodes[k], k)
+        return propagate(self.chain, states[k], self.omega2, x - nodes[k], k)
 
     def displacement(self, x: Array) -> Array:
         """Return the displacements of the modes at places [m], to any scale, (points, k)."""
@@ -179,18 +220,19 @@ class ChainModes:
         That is Y'^2, without shear; with it, Haringx' Y'^2 less the shear angle's square, or
         Engesser's Y'^2, as a mean of both sides where N jumps.
         """
-        z, nodes = self.at(np.array([x]))[0], self.chain.nodes
+        both = [self._at(z, np.array([x]))[0] for z in (self.states, self.left_states)]
+        right, left = both
         if "shear" not in self.chain.columns:
-            return np.asarray(z[:, 1] ** 2 / self._modal_mass)
-        beside = np.array([x * (1 - 1e-12), x * (1 + 1e-12)])
+            return np.asarray(right[:, 1] * left[:, 1] / self._modal_mass)
+        nodes, beside = self.chain.nodes, np.array([x * (1 - 1e-12), x * (1 + 1e-12)])
         sides = np.clip(np.searchsorted(nodes, beside, side="right") - 1, 0, len(nodes) - 2)
         total = np.zeros(len(self.omega2))
         for side in sides:
             columns = {name: v[side] for name, v in self.chain.columns.items()}
-            slope = self.chain.law.slope(columns, z)
-            square = slope**2
+            slopes = [self.chain.law.slope(columns, z) for z in both]
+            square = slopes[0] * slopes[1]
             if self.shear_form == "haringx":
-                square = square - (slope - z[:, 1]) ** 2
+                square = square - (slopes[0] - right[:, 1]) * (slopes[1] - left[:, 1])
             total += square / 2
         return np.asarray(total / self._modal_mass)
 
@@ -321,7 +363,16 @@ class EigenvalueDerivatives:
     @cached_property
     def by_thrust(self) -> Array:
         """[rad^2/s^2/N], shape (k,)."""
-        return np.asarray(self._share_ahead @ self.modes.by_axial_force)
+        return np.asarray(self._share_ahead @ self.modes.by_axial_force + self._at_end(1))
+
+    def _at_end(self, side: int) -> Array | float:
+        """Return what a unit force does that follows the nose (0) or the tail (1), by its share."""
+        share = self.beam.ends.follow[side]
+        return share * self.modes.by_following[side] if share and self._bends else 0.0
+
+    @property
+    def _bends(self) -> bool:
+        return self.modes.chain.law.has_axial_force
 
     def by_force(self, change: ForceChange) -> Array:
         """Return d(omega^2) for each unit of the parameter that changes a force, shape (k,)."""
@@ -330,7 +381,9 @@ class EigenvalueDerivatives:
             return np.zeros(len(self.modes.omega2))
         steps = self._steps(change.name)[self._interval] - self._share_ahead
         by_drag = steps @ self.modes.by_axial_force
-        total = change.drag * by_drag
+        total = change.drag * (
+            by_drag + (self._at_end(0) if force is self.loads.forces[0] else 0.0)
+        )
         if self._exact and change.place and force.x > 0:
             total = total + change.place * force.F_X * self.modes.slope_squared(force.x)
         return np.asarray(total)

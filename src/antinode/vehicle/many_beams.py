@@ -38,6 +38,8 @@ class Chains:
     length, mass, stiffness, axial_force : array, shape (cases or 1, n)
     more : dict of array, shape (cases, n)
         Columns of a chain besides: what shear and rotary inertia add.
+    following : array, shape (cases, 2), optional
+        The part of the forces at both ends that turns with them [N]; None where they do not.
     """
 
     rows: Integers
@@ -46,6 +48,7 @@ class Chains:
     stiffness: Array
     axial_force: Array
     more: Mapping[str, Array] = field(default_factory=dict)
+    following: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -135,7 +138,7 @@ class ManyBeams:
         if self.exact:
             at = middle[..., None]
             m, EI, N = (v[..., 0] for v in self._at(rows, interval, at, jump))
-            return Chains(rows, right - left, m, EI, N)
+            return Chains(rows, right - left, m, EI, N, following=self._following(rows))
         steps = np.linspace(0, 1, refinement + 1)[:-1]
         size = (right - left)[..., None] / refinement
         start = left[..., None] + (right - left)[..., None] * steps
@@ -147,7 +150,18 @@ class ManyBeams:
         m, EI, N = self._at(rows, spread(interval), at, spread(jump))
         halves = [halved(v).reshape(len(rows), -1) for v in (m, 1 / EI, N)]
         length = np.repeat(spread(size[..., 0]) / 2, 2, axis=1)
-        return Chains(rows, length, halves[0], 1 / halves[1], halves[2])
+        return Chains(
+            rows, length, halves[0], 1 / halves[1], halves[2], following=self._following(rows)
+        )
+
+    def _following(self, rows: Integers) -> Array | None:
+        """Return the part of the cavitator's drag and of the thrust that turns with the body."""
+        nose, tail = self.loads.cases.model.follow
+        if not nose and not tail:
+            return None
+        thrust = self.loads.cases.number("condition", "thrust")
+        ends = nose * self.loads.F_CX, tail * np.broadcast_to(thrust, self.loads.F_CX.shape)
+        return np.stack(ends, axis=1)[rows]
 
     def _jumps(self, rows: Integers, middle: Array) -> Array:
         """Return the drag of all forces ahead of the middles of cells, the cavitator's included."""

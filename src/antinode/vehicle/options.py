@@ -81,7 +81,7 @@ class Model(Frozen):
         default="haringx", description="how the axial force and shear meet, in timoshenko's theory"
     )
     end_force: Literal["follows_body", "fixed_direction"] = Field(
-        default="fixed_direction",
+        default="follows_body",
         description="whether thrust and the cavitator's drag turn with tail and nose, as those of "
         "a fixed nozzle and of a disk do, or keep their direction in space",
     )

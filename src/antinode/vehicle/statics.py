@@ -56,7 +56,8 @@ class StaticShape(NamedTuple):
 
 FRAME = (
     "u_Y: static deflection, up, from the mean axis (it has no mean displacement and no mean "
-    "rotation, weighted by mass). u_X: static displacement, aft, from the nose."
+    "rotation, weighted by mass). u_X: static displacement, aft, from the nose. In both all forces "
+    "keep the direction that they have on the straight body."
 )
 """What the displacements are measured from."""
 

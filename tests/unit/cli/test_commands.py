@@ -22,9 +22,11 @@ from cli_run import contents, python, refused, replaced, run
 
 @pytest.fixture
 def starter(tmp_path, monkeypatch):
-    """The starter case in the current folder."""
+    """The starter case in the current folder, its end forces of fixed direction."""
     monkeypatch.chdir(tmp_path)
     assert run("init").code == 0
+    path = tmp_path / "case.toml"
+    path.write_text(path.read_text().replace('"follows_body"', '"fixed_direction"'))
     return tmp_path
 
 

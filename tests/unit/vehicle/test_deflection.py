@@ -9,6 +9,7 @@ import pytest
 from antinode import load_case, solve_modes
 from antinode.vehicle.case import Case
 from antinode.vehicle.loads import compute_loads
+from antinode.vehicle.options import Model
 from antinode.vehicle.statics import deflection_warnings, static_shape
 from cli_run import run
 from vehicles import condition, vehicle
@@ -23,7 +24,8 @@ def folder(request, tmp_path, monkeypatch):
 
 def case(stiffer=1.0, radius=(0.04, 0.1, 0.17, 0.19, 0.19, 0.19, 0.19), **values):
     body = vehicle(bending_stiffness=[4e5 * stiffer] * 7, radius=radius)
-    return Case(vehicle=body, condition=condition(**values))
+    model = Model(end_force="fixed_direction")
+    return Case(vehicle=body, condition=condition(**values), model=model)
 
 
 def told(problem):

@@ -152,7 +152,8 @@ def test_chains_are_those_of_the_beam(tmp_path, how):
         for chains in beams.chains(np.arange(12), refinement):
             for k, i in enumerate(chains.rows):
                 table = (chains.length, chains.mass, chains.stiffness, chains.axial_force)
-                batch = an.BeamBatch(*(v[k if len(v) > 1 else 0] for v in table), modes=3)
+                own = (v[k if len(v) > 1 else 0] for v in table)
+                batch = an.BeamBatch(*own, modes=3, following=chains.following[k])
                 hz = an.solve_many(batch).frequencies_hz[0]
                 exact = an.solve_modes(
                     case_of(case, numbers, int(i)), 3, tolerance=1e-10, families=["bending"]

@@ -43,8 +43,14 @@ def modes(
 
         write_modes(output, result, lambda: modes_dict(problem, result))
     if not output.json:
-        from antinode.show.printing import console, show_condition, show_modes
+        from antinode.show.printing import console, show_condition, show_end_forces, show_modes
+        from antinode.vehicle.end_forces import compare_end_forces
 
         out = console()
         show_condition(out, problem)
-        show_modes(out, result, problem.loads.warnings)
+        show_modes(
+            out,
+            result,
+            problem.loads.warnings,
+            beside=lambda: show_end_forces(out, compare_end_forces(problem, result)),
+        )

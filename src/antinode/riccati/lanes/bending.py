@@ -34,6 +34,7 @@ from .workspace import (
     LENGTH,
     MASS,
     OMEGA2,
+    POWER,
     RATIO,
     RATIO_D,
     RATIO_E,
@@ -173,6 +174,22 @@ def finish(right, state, value):
             value[lane] = d
             more = 1.0 if d * a < 0.0 else 0.0
         state[COUNT + lane] += more
+
+
+@compiled
+def follow_start(kappa, state):
+    """Set what a left end admits whose force follows: Y^Q beside Y^theta."""
+    for lane in range(LANES):
+        state[E + lane] += kappa
+
+
+@compiled
+def follow_finish(sigma, kappa, state, value):
+    """Set the characteristic function of a right end whose force follows."""
+    for lane in range(LANES):
+        power = state[POWER + lane]
+        own = sigma if power == 0.0 else math.ldexp(sigma, -int(power))
+        value[lane] = state[F + lane] + kappa * (state[E + lane] - own)
 
 
 @compiled

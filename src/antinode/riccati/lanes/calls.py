@@ -75,9 +75,7 @@ def _is_known(chain: Chain) -> bool:
 
 
 def _needs_frames(chain: Chain) -> bool:
-    """Tell whether supports, or ends that follow, are not known to the compiled chain."""
-    if chain.follows:
-        return True
+    """Tell whether supports stand where the compiled chain does not know them."""
     known = range(1, len(chain.length)) if FORMS[chain.law].supports else ()
     return any(point.holds and point.node not in known for point in chain.points)
 
@@ -98,7 +96,7 @@ def solve_chains(chains: Chains, below: int, number: int, width: float) -> Chain
     width : float
         Relative width of the brackets in omega^2.
     """
-    given, n = _whole(chains), chains.length.shape[1]
+    given, ends, n = _whole(chains), _ends(chains), chains.length.shape[1]
     own, found = _own(chains), ChainRoots.empty(len(chains), number)
     warmth = Warmth(
         neighbour=np.full(1, -1),
@@ -111,11 +109,28 @@ def solve_chains(chains: Chains, below: int, number: int, width: float) -> Chain
     table = np.empty((ROWS, n + n // 2 + 8))
     while row < len(chains):
         row, columns, _ = library().call(
-            "solve_rows", given, row, own, task, warmth, table, scratch.lanes, search, found
+            "solve_rows",
+            (*given, ends),
+            row,
+            own,
+            task,
+            warmth,
+            table,
+            scratch.lanes,
+            search,
+            found,
         )
         if row < len(chains):
             warmth.neighbour[0], table = -1, new_table(columns)
     return found
+
+
+_NO_ENDS = np.zeros((1, 2))
+
+
+def _ends(chains: Chains) -> Array:
+    """Return what turns with the ends of chains [N], one row for all where nothing does."""
+    return _NO_ENDS if chains.following is None else np.ascontiguousarray(chains.following)
 
 
 def _whole(chains: Chains) -> tuple[Array, ...]:
@@ -155,7 +170,12 @@ def _weights(chains: Chains, below: int, roots: int) -> Array:
     Q^2 and of twice its mean energy follow, (5, roots, n): the energy falls as s rises.
     """
     none = np.empty((3, 0, chains.length.shape[1]))
-    if len(chains) < _MANY or len(chains.length) > 1 or not FORMS[chains.law].shapes:
+    if (
+        chains.following is not None
+        or len(chains) < _MANY
+        or len(chains.length) > 1
+        or not FORMS[chains.law].shapes
+    ):
         return none
     with np.errstate(all="ignore"):
         m, EI, N = (np.mean(values, axis=0) for values in chains.arrays[1:])
@@ -209,7 +229,8 @@ def certify_guesses(chains: Chains, guess: Array, below: int, width: float) -> C
     own.stiffness[:] = chains.stiffness[0]
     library().call(
         "certify_rows",
-        *(np.ascontiguousarray(chains.axial_force), np.ascontiguousarray(guess), kept),
+        *(np.ascontiguousarray(chains.axial_force), _ends(chains)),
+        *(np.ascontiguousarray(guess), kept),
         *(np.zeros(n), Task(below, width, True), np.zeros(number), np.empty((ROWS, n + 64))),
         *(scratch.lanes, scratch.search(number), found),
     )
@@ -236,7 +257,8 @@ def solve_beam(
     ends = form.ends[beam.left], form.ends[beam.right]
     steepest, longest, halvings = beam.limits
     interior = Interior(
-        *ends, float(beam.acceleration), beam.logarithmic, steepest, longest, halvings
+        *(*ends, float(beam.acceleration), *beam.following),
+        *(beam.logarithmic, steepest, longest, halvings),
     )
     nodes, need = _nodes(beam), Need()
     while True:

@@ -11,7 +11,7 @@ import numpy as np
 
 from antinode.riccati.chains import ChainRoots
 
-from . import laws, levels, rows, search, shapes
+from . import following, laws, levels, rows, search, shapes
 from .structures import Kept
 from .workspace import (
     NO_POINTS,
@@ -34,7 +34,7 @@ _i, _f, _b = 1, 1.0, True
 _chain, _lanes, _search = new_chain(1, 1, 1, 1), Kept(new_lanes()), Kept(new_search(1))
 _kept_chain = Kept(_chain)
 _task, _warmth = Task(1, 1.0, True), Warmth(_i1, _f1, _f1, _f3, _f2)
-_interior = Interior(1, 1, 1.0, True, 1.0, 1.0, 1)
+_interior = Interior(1, 1, 1.0, 1.0, 1.0, True, 1.0, 1.0, 1)
 _scaled = new_scaled(1)
 _found = ChainRoots.empty(1, 1)
 
@@ -43,16 +43,16 @@ ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "prepare": (laws.prepare, (_chain, _f, _f2)),
     "evaluate": (search.evaluate, (_chain, _f1, _f2, _lanes, _i1, _f1)),
     "find_roots": (
-        search.find_roots,
+        following.find_all,
         (_chain, _task, _b, _f, new_roots(1), _f2, _lanes, _search),
     ),
     "solve_rows": (
         rows.solve_rows,
-        (7 * (_f2,), _i, _kept_chain, _task, _warmth, _f2, _lanes, _search, _found),
+        (8 * (_f2,), _i, _kept_chain, _task, _warmth, _f2, _lanes, _search, _found),
     ),
     "certify_rows": (
         rows.certify_rows,
-        (_f2, _f2, _kept_chain, _f1, _task, _f1, _f2, _lanes, _search, _found),
+        (_f2, _f2, _f2, _kept_chain, _f1, _task, _f1, _f2, _lanes, _search, _found),
     ),
     "solve_levels": (
         levels.solve_levels,

@@ -8,6 +8,7 @@ its law, by number.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -16,7 +17,7 @@ from antinode.riccati.points import Point
 
 from . import bending, pieces, sheared, wave
 from .compiling import compiled
-from .workspace import LANES, OMEGA2, POWER
+from .workspace import HOLDS_THETA, HOLDS_Y, LANES, OMEGA2, POWER
 
 _BENDING, _WAVE, _SHEARED = 0, 1, 2
 
@@ -116,6 +117,7 @@ def start(chain, lanes):
         lanes.state[POWER + lane] = 0.0
     if chain.law != _WAVE:
         bending.start(chain.left, lanes.state, lanes.sign)
+        bending.follow_start(chain.following[0], lanes.state)
     else:
         wave.start(chain.left, lanes.state, lanes.sign)
 
@@ -154,8 +156,36 @@ def finish(chain, lanes):
     """Count what the right end leaves free, and set the characteristic function."""
     if chain.law != _WAVE:
         bending.finish(chain.right, lanes.state, lanes.value)
+        if chain.following[1] != 0.0:
+            sigma = chain.following[0] if keeps_sigma(chain) else 0.0
+            bending.follow_finish(sigma, chain.following[1], lanes.state, lanes.value)
     else:
         wave.finish(chain.right, lanes.state, lanes.value)
+
+
+@compiled
+def beyond(chain, omega2):
+    """Return omega^2 of bending one root farther up, mostly."""
+    place = math.sqrt(math.sqrt(omega2)) + root_spacing(chain)
+    return place * place * place * place
+
+
+@compiled
+def keeps_sigma(chain):
+    """Tell whether no support makes every plane Lagrangian (`riccati.lanes.following`)."""
+    held = False
+    for k in range(len(chain.points)):
+        held = held or chain.points[k, HOLDS_Y] != 0.0 or chain.points[k, HOLDS_THETA] != 0.0
+    return not held
+
+
+@compiled
+def root_spacing(chain):
+    """Return how far the fourth roots of neighbouring omega^2 in bending are apart, mostly."""
+    phase = 0.0
+    for k in range(len(chain.length)):
+        phase += chain.length[k] * math.sqrt(math.sqrt(chain.mass[k] / chain.stiffness[k]))
+    return math.pi / phase
 
 
 @compiled

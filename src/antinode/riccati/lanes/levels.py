@@ -22,7 +22,7 @@ from antinode.riccati.reasons import (
 
 from . import laws
 from .compiling import compiled
-from .search import find_roots
+from .following import find_all
 from .workspace import (
     CENTRAL,
     COMPLIANCE,
@@ -248,6 +248,8 @@ def _to_chain(n, interior, nodes, beam, L, m0, EI0):
         own.marks[i] = -1
     for i in range(len(nodes.at)):
         own.marks[beam.first[nodes.at[i]]] = i
+    own.following[0] = interior.kappa_left * (L * L / EI0)
+    own.following[1] = interior.kappa_right * (L * L / EI0)
     return Chain(
         own.law,
         interior.left,
@@ -260,6 +262,7 @@ def _to_chain(n, interior, nodes, beam, L, m0, EI0):
         own.marks[: n + 1],
         nodes.scaled,
         own.more,
+        own.following,
     )
 
 
@@ -280,7 +283,7 @@ def _solve_level(chain, task, warm, beam):
     """Find the roots of a chain, without guesses if they lead nowhere."""
     total = 0
     while True:
-        reason, more = find_roots(
+        reason, more = find_all(
             chain, task, warm, 0.0, beam.roots, beam.table, beam.lanes, beam.search
         )
         if reason == TABLE_TOO_SMALL:

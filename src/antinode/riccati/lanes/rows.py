@@ -17,9 +17,9 @@ from antinode.riccati.reasons import (
 
 from . import laws
 from .compiling import compiled, summing
+from .following import find_all
 from .pieces import refill_force
-from .search import find_roots
-from .workspace import GROUND, ROTARY_INERTIA, SHEAR, SHEAR_TURN, SHEAR_WORK, Roots
+from .workspace import GROUND, LANES, ROTARY_INERTIA, SHEAR, SHEAR_TURN, SHEAR_WORK, Roots
 
 _REACH = 1.2  # of a table that serves many rows, over the highest root
 _MORE_FORCE = 1.1
@@ -145,7 +145,7 @@ def solve_rows(given, first, chain, task, warmth, table, lanes, search, found):
 
     Each starts from the roots of its neighbour, the row solved before.
     """
-    length, mass, stiffness, force, shear, rotary, ground = given
+    length, mass, stiffness, force, shear, rotary, ground, following = given
     neighbour, current, quotient = warmth.neighbour, warmth.omega2, warmth.quotient
     for row in range(first, len(mass)):
         h, m, K, N = length[row if len(length) > 1 else 0], mass[row], stiffness[row], force[row]
@@ -159,7 +159,8 @@ def solve_rows(given, first, chain, task, warmth, table, lanes, search, found):
             continue
         if warmth.weights.shape[1]:
             _quotients(warmth.weights, m, K, N, chain.more, quotient[0])
-        unit = make_dimensionless(chain)[0]
+        unit, L, _, K0 = make_dimensionless(chain)
+        _take_ends(following[row if len(following) > 1 else 0], L * L / K0, chain.following)
         if warmth.weights.shape[1] and neighbour[0] >= 0:
             _guess(found.omega2[neighbour[0]], quotient[0], quotient[1], unit, current)
         roots = _roots_of(row, current, warmth.slope, found)
@@ -180,7 +181,7 @@ def _solve_row(row, chain, task, neighbour, roots, table, lanes, search, found):
     """Solve a row, without its neighbour if need be; return columns if the table needs more."""
     for _attempt in range(2):
         warm = neighbour[0] >= 0
-        reason, more = find_roots(chain, task, warm, 0.0, roots, table, lanes, search)
+        reason, more = find_all(chain, task, warm, 0.0, roots, table, lanes, search)
         if reason == TABLE_TOO_SMALL:
             return more
         found.reason[row] = reason
@@ -200,7 +201,7 @@ def _is_finite(values):
 
 
 @compiled
-def certify_rows(force, guess, chain, most, task, slope, table, lanes, search, found):
+def certify_rows(force, following, guess, chain, most, task, slope, table, lanes, search, found):
     """Certify the guesses for chains that differ in axial force alone; refine those that fail.
 
     `most` is the largest force on every segment that the table is filled for.
@@ -216,20 +217,28 @@ def certify_rows(force, guess, chain, most, task, slope, table, lanes, search, f
             slope[k], found.omega2[row, k] = 0.0, guess[row, k] / unit
             highest = max(highest, abs(found.omega2[row, k]))
         outside = _take_force(force[row], pull, most, chain.force)
+        _take_ends(following[row if len(following) > 1 else 0], pull, chain.following)
+        follows = chain.following[0] != 0.0 or chain.following[1] != 0.0
         if outside or highest * (1.0 + task.width) > reach:
-            reach = _fill_for_many(chain, highest, most, table)
+            reach = _fill_for_many(chain, highest, follows, most, table)
             if reach == 0.0:
                 found.reason[row] = NOT_BRACKETED
                 continue
         else:
             refill_force(chain.force, chain.starts, table)
         roots = _roots_of(row, found.omega2[row], slope, found)
-        reason, more = find_roots(chain, task, True, reach, roots, table, lanes, search)
+        reason, more = find_all(chain, task, True, reach, roots, table, lanes, search)
         found.reason[row] = reason
         found.evaluations[row] += more
-        if more > 2 * number:
+        if more > 2 * number + (LANES if follows else 0):
             reach = 0.0
         _to_si(row, unit, found)
+
+
+@compiled
+def _take_ends(given, pull, own):
+    """Set what turns with the ends of a chain."""
+    own[0], own[1] = given[0] * pull, given[1] * pull
 
 
 @compiled
@@ -243,9 +252,9 @@ def _take_force(force, pull, most, own):
 
 
 @compiled
-def _fill_for_many(chain, highest, most, table):
+def _fill_for_many(chain, highest, follows, most, table):
     """Fill a table with some room for more force; return its reach, 0 if it does not fit."""
-    reach = _REACH * highest
+    reach = _REACH * (laws.beyond(chain, highest) if follows else highest)
     for k in range(len(most)):
         most[k] = max(most[k], _MORE_FORCE * abs(chain.force[k]))
     pieces = laws.count_pieces(chain, most, reach)

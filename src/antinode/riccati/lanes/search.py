@@ -101,6 +101,8 @@ def _forget(roots, search):
 def _begin(chain, task, warm, exact, roots, search):
     """Ask for the first samples; return their number."""
     asked, owner, root, wanted = search.asked, search.owner, roots.omega2, search.wanted
+    for k in range(len(root)):
+        search.guess[k] = root[k]
     if not warm:
         number = 2 * (max(task.below - 2, 0) + len(root)) + 3
         number = laws.first_samples(chain, number, asked)
@@ -144,6 +146,9 @@ def _evaluate(chain, task, number, total, roots, table, lanes, search):
         for lane in range(min(LANES, number - first)):
             if not math.isfinite(lanes.value[lane]):
                 return False, total
+            if chain.following[0] != 0.0 or chain.following[1] != 0.0:
+                count = _rank(lanes.state[OMEGA2 + lane], lanes.value[lane], task.below, search)
+                lanes.state[COUNT + lane] = count
             _take_sample(lane, task.below, total, lanes, roots, search)
             k = search.owner[first + lane]
             if k >= 0:
@@ -151,6 +156,22 @@ def _evaluate(chain, task, number, total, roots, table, lanes, search):
                 own[k, 0] = total
             total += 1
     return True, total
+
+
+@compiled
+def _rank(omega2, value, below, search):
+    """Return how many roots lie below where ends follow: by guesses, as the sign of D has it.
+
+    It is positive below all of them. Where guesses are an odd number off, the nearest one is.
+    """
+    guess, last = search.guess, 0
+    while last < len(guess) and guess[last] < omega2:
+        last += 1
+    if (last + below) % 2 == (1 if value < 0.0 else 0):
+        return last + below
+    under = guess[last - 1] if last > 0 else 0.0
+    over = guess[last] if last < len(guess) else np.inf
+    return below + (last + 1 if over - omega2 < omega2 - under else last - 1)
 
 
 @compiled
@@ -330,8 +351,14 @@ def _stretch(law, table, lanes, first, last):
 @compiled
 def pass_chain(chain, table, lanes):
     """Pass a chain from left to right."""
-    starts, marks = chain.starts, chain.marks
     laws.start(chain, lanes)
+    carry_chain(chain, table, lanes)
+
+
+@compiled
+def carry_chain(chain, table, lanes):
+    """Carry the lanes from the left end to the right one, whatever they start with."""
+    starts, marks = chain.starts, chain.marks
     first, n = 0, len(chain.length)
     for node in range(n if len(chain.points) == 0 else 0, n + 1):
         if marks[node] < 0 and node < n:

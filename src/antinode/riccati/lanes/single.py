@@ -58,6 +58,8 @@ class SingleChain:
         units = np.empty(4)
         library().call("scale", own, units)
         self.unit, L, m0, stiffness = units.tolist()
+        own.following[:] = np.array(chain.following) * (L * L / stiffness)
+        self.follows = chain.follows
         if chain.points:
             own.marks[[point.node for point in chain.points]] = np.arange(len(chain.points))
             rows = np.array([form.point(point, L, stiffness, m0) for point in chain.points])
@@ -79,7 +81,7 @@ class SingleChain:
             raise FloatingPointError(f"omega^2 = {worst:g} is out of reach for this chain")
         count, value = np.empty(len(scaled), np.int64), np.empty(len(scaled))
         library().call("evaluate", self.chain, scaled, table, scratch.lanes, count, value)
-        return Evaluation(count, self.sign * value)
+        return Evaluation(count * 0 - 1 if self.follows else count, self.sign * value)
 
     def roots(self, below: int, number: int, width: float) -> Found:
         """Bracket and certify eigenvalues below + 1 ... below + number.

@@ -96,6 +96,8 @@ class Chain(NamedTuple):
     """Shape (points, 9)."""
     more: Array
     """What segments have besides, shape (5, n); (5, 0) where they have nothing."""
+    following: Array
+    """What turns with the left and the right end, shape (2,): kappa (`riccati.following`)."""
 
 
 class Scaled(NamedTuple):
@@ -157,6 +159,8 @@ class Search(NamedTuple):
     """Turns since it halved."""
     at: Integers
     """Samples at the two ends of the bracket, shape (roots, 2)."""
+    guess: Array
+    """Where the roots were expected, ascending: it tells them apart where ends follow."""
     own: Integers
     """Samples the root asked for last, newest first, -1 for none, shape (roots, 4)."""
     wanted: Array
@@ -219,6 +223,9 @@ class Interior(NamedTuple):
     left: int
     right: int
     acceleration: float
+    kappa_left: float
+    """What turns with the ends [N]."""
+    kappa_right: float
     logarithmic: bool
     steepest: float
     longest: float
@@ -259,6 +266,7 @@ def new_search(roots: int) -> Search:
         before=np.zeros(roots),
         stuck=np.zeros(roots, np.int64),
         at=np.zeros((roots, 2), np.int64),
+        guess=np.zeros(roots),
         own=np.zeros((roots, 4), np.int64),
         wanted=np.zeros((roots, 3)),
         requests=np.zeros(roots, np.int64),
@@ -275,7 +283,7 @@ def new_chain(law: int, left: int, right: int, segments: int, more: bool = False
     starts = np.empty(segments + 1, np.int64)
     length, mass, stiffness, force = np.zeros((4, segments))
     besides = np.zeros((MORE, segments if more else 0))
-    own = length, mass, stiffness, force, starts, marks, NO_POINTS, besides
+    own = length, mass, stiffness, force, starts, marks, NO_POINTS, besides, np.zeros(2)
     return Chain(law, left, right, *own)
 
 

@@ -118,7 +118,9 @@ def _chains_of(beams: Mapping[int, Beam], rows: Integers, refinement: int) -> li
         ]
         length, m, EI, N = table
         more = _more(list(own.values()))
-        found.append(Chains(np.array(list(own)), length, m, EI, N, more))
+        ends = np.array([chain.following for chain in own.values()])
+        following = ends if ends.any() else None
+        found.append(Chains(np.array(list(own)), length, m, EI, N, more, following))
     return found
 
 

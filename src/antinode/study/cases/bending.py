@@ -17,10 +17,11 @@ from antinode.beam.ends import FREE
 from antinode.beam.families import BENDING, FAMILIES
 from antinode.modes.backends import choose
 from antinode.modes.batch import BeamBatch, solve_many
+from antinode.modes.following import eigenvalues_alone
 from antinode.modes.rigid import elastic, rigid_modes_of, zeros_of
 from antinode.riccati.chain import Chain
 from antinode.riccati.convergence import extrapolate
-from antinode.riccati.roots import CountingError, find_eigenvalues
+from antinode.riccati.roots import CountingError
 from antinode.study.design.file import Study
 from antinode.vehicle.derivatives import ChainModes
 from antinode.vehicle.many_beams import Chains, sheared_columns
@@ -31,6 +32,7 @@ from .reasons import PAST_BUCKLING, failed
 IN_BATCHES = (BENDING,)
 """Families whose cases are solved together."""
 _SAMPLE = 32
+_WIDTH = 1e-10  # relative, of brackets
 _SAFETY = 2.5  # for cases that are not in the sample
 _NEAR_BUCKLING = 1e-7  # share of the highest omega^2 below which the first may be a rigid one
 _FINEST = 32
@@ -50,7 +52,8 @@ class Eigenvalues:
     shapes : array, shape (cases, modes, points)
         At even points, of unit norm; without points where they are not wanted.
     net_force : array, shape (cases,)
-        Integral of N along the axis [N m]; 0 in families that it does not act on.
+        Integral of N along the axis less what following ends turn back [N m]: it turns the body
+        on where it is positive. 0 in families that it does not act on.
     lowest_diverges : array of bool, shape (cases,)
         Whether the mode that is counted as rigid rotation diverges in net tension.
     """
@@ -87,7 +90,7 @@ def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
         at = chains.rows
         omega2, error, out.reason[at] = solve_free(chains, study.solve.modes)
         out.omega2[at] = omega2
-        out.net_force[at] = np.sum(chains.length * chains.axial_force, axis=1)
+        out.net_force[at] = net_force(chains)
         out.lowest_diverges[at] = lowest_diverges(chains, omega2, out.net_force[at])
         out.error[at] = error + np.abs(omega2) * share * weight[at, None]
         if points:
@@ -154,7 +157,7 @@ def solve_free(chains: Chains, modes: int) -> tuple[Array, Array, Integers]:
     """Return omega^2, its error and the reason for every chain; by frames where lanes fail."""
     tables = chains.length, chains.mass, chains.stiffness, chains.axial_force
     more: dict[str, Any] = sheared_columns(chains.more)
-    batch = BeamBatch(*tables, modes=modes, **more)
+    batch = BeamBatch(*tables, modes=modes, following=chains.following, **more)
     result = solve_many(batch)
     omega2, error, reason = result.omega2, result.error_omega2, result.reason
     buckled = ~(omega2[:, 0] > _NEAR_BUCKLING * omega2[:, -1])
@@ -166,12 +169,26 @@ def solve_free(chains: Chains, modes: int) -> tuple[Array, Array, Integers]:
     return omega2, error, reason
 
 
+def net_force(chains: Chains) -> Array:
+    """Return the integral of N along the axis less what forces that follow turn back [N m]."""
+    net = np.sum(chains.length * chains.axial_force, axis=1)
+    if chains.following is None:
+        return np.asarray(net)
+    right = np.cumsum(chains.length, axis=1)
+    m = np.broadcast_to(chains.mass * chains.length, chains.axial_force.shape)
+    centre = np.sum(m * (right - chains.length / 2), axis=1) / np.sum(m, axis=1)
+    nose, tail = chains.following.T
+    return np.asarray(net - nose * centre - tail * (right[:, -1] - centre))
+
+
 def lowest_diverges(chains: Chains, omega2: Array, net_force: Array) -> npt.NDArray[np.bool_]:
     """Tell where a body in net tension has a part that is compressed past its buckling.
 
     The lowest eigenvalue, below the translation, is then no elastic mode's by its index.
     """
     told = np.zeros(len(omega2), dtype=bool)
+    if chains.following is not None:  # counts do not hold; the sign of the turning force does
+        return told
     compressed = np.any(chains.axial_force > 0, axis=1)
     for i in np.flatnonzero((net_force < 0) & compressed & np.isfinite(omega2[:, -1])).tolist():
         below_zero = -_NEAR_BUCKLING * abs(float(omega2[i, -1]))
@@ -185,7 +202,8 @@ def chain_of(chains: Chains, i: int) -> Chain:
     length, *columns = (table[i if len(table) > 1 else 0] for table in tables)
     law = FAMILIES[BENDING].law
     more = {name: table[i] for name, table in chains.more.items()}
-    return Chain(law, length, law.named(*columns) | more)
+    ends = (0.0, 0.0) if chains.following is None else tuple(chains.following[i].tolist())
+    return Chain(law, length, law.named(*columns) | more, following=ends)
 
 
 def _by_frames(chain: Chain, modes: int) -> tuple[Array, Array] | None:
@@ -193,11 +211,11 @@ def _by_frames(chain: Chain, modes: int) -> tuple[Array, Array] | None:
     zeros = zeros_of(FREE, chain)
     rigid = rigid_modes_of(FREE, chain.family)
     try:
-        found = find_eigenvalues(chain, modes + rigid, zeros=zeros)
+        found = eigenvalues_alone(choose("numba"), chain, modes + rigid, zeros, _WIDTH)
     except (CountingError, FloatingPointError, ValueError):
         return None
-    rest = elastic(found, rigid)[:modes]
-    if len(rest) < modes:
+    rest = elastic(found, rigid, chain)[:modes]
+    if len(rest) < modes or any(e.imaginary for e in rest):
         return None
     omega2 = np.array([e.omega2 for e in rest])
     return omega2, np.array([e.bracket[1] - e.bracket[0] for e in rest])

@@ -20,6 +20,7 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES, FamilyName
 from antinode.errors import AntinodeError
 from antinode.modes.backends import choose
+from antinode.modes.following import energies_of_modes
 from antinode.modes.shapes import ModelErrorParts, model_error_parts
 from antinode.riccati.chain import Chain
 from antinode.vehicle.case import body_as_beam
@@ -154,7 +155,8 @@ def _parts(body: Beam, chain: Chain, omega2: Array, stations: Array) -> Array:
     compiled = choose("numba")
     try:
         states = compiled.mode_states(chain, omega2, np.ones(len(omega2), dtype=np.int64))
-        parts = model_error_parts(body, chain, compiled.mode_energies(chain, states, omega2))
+        energies = energies_of_modes(compiled, chain, states, omega2)
+        parts = model_error_parts(body, chain, energies)
     except (ArithmeticError, ValueError):
         return np.full((2, len(omega2), len(stations) - 1), np.nan)
     middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2

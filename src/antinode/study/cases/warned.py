@@ -15,6 +15,7 @@ from antinode.modes.warnings import (
     MODEL_LIMIT,
     PAST_BUCKLING,
     ROTATION_DIVERGES,
+    ROTATION_NOT_TURNED_BACK,
     SHEAR_BUCKLES,
     SHEAR_LOWERS,
     shear_buckles,
@@ -40,7 +41,10 @@ _LAST = 62
 
 def messages(study: Study) -> tuple[str, ...]:
     """Return what a case of a study can warn of, in the order of the bits."""
-    texts = (*_OF_MODES, *OF_MANY, *load_messages(study.case))
+    of_modes = list(_OF_MODES)
+    if any(study.case.model.follow):
+        of_modes[of_modes.index(ROTATION_DIVERGES)] = ROTATION_NOT_TURNED_BACK
+    texts = (*of_modes, *OF_MANY, *load_messages(study.case))
     return (*texts[:_LAST], "; or ".join(texts[_LAST:])) if len(texts) > _LAST else texts
 
 

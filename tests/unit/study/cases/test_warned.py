@@ -58,7 +58,7 @@ solve.modes = 2
 def case(tmp_path_factory):
     folder = tmp_path_factory.mktemp("warned")
     run("init", folder)
-    return an.load_case(folder / "case.toml")
+    return an.load_case(folder / "case.toml", ["model.end_force=fixed_direction"])
 
 
 def told(dataset, i):

@@ -41,6 +41,8 @@ steep, 15, burnt, 3.592436, , 23.5
 @pytest.fixture
 def folder(tmp_path):
     assert run("init", tmp_path).code == 0
+    path = tmp_path / "case.toml"
+    path.write_text(path.read_text().replace('"follows_body"', '"fixed_direction"'))
     (tmp_path / "identify.toml").write_text(FILE)
     (tmp_path / "observations.csv").write_text(TABLE)
     return tmp_path
