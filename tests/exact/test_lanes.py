@@ -197,7 +197,7 @@ def test_half_segments_are_those_of_the_beam(interpolation, refinement, accelera
     own = workspace.new_levels(0, n, 999, np.empty((0, 0)), 1)
     own.x[:], own.mass[:], own.stiffness[:], own.force[:] = x, m, EI, N
     own.mass_left[:] = beam.mass_left
-    interior = workspace.Interior(0, 0, acceleration, interpolation == "log", *LIMITS)
+    interior = workspace.Interior(0, 0, acceleration, 0.0, 0.0, interpolation == "log", *LIMITS)
     levels.mark_varying(own, acceleration)
     number = levels.coarsest_steps(own, interior)
     found = levels.make_halves(own, interior, number, refinement)
