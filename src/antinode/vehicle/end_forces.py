@@ -17,7 +17,7 @@ from antinode.modes.hertz import error_hz, hertz
 from antinode.modes.result import ModalResult, null
 from antinode.modes.rigid import rigid_modes_of
 from antinode.riccati.chain import Chain
-from antinode.riccati.neighbours import neighbours
+from antinode.riccati.following_roots import neighbours
 
 from .case import Case
 
@@ -75,9 +75,9 @@ def compare_end_forces(case: Case, result: ModalResult) -> tuple[Choice, ...]:
 
     None where bending is not among the modes, or one of them does not oscillate steadily.
     """
-    modes = [m for m in result.modes if m.family == BENDING and m.number]
+    modes = [m for m in result.family(BENDING) if m.number]
     steady = all(m.omega2 > 0 and not m.growth for m in modes)
-    if not modes or not steady or BENDING not in result.solutions or result.method == "tmm":
+    if not modes or not steady or result.method == "tmm":
         return ()
     omega2 = np.array([m.omega2 for m in modes])
     error = np.array([m.error_omega2 for m in modes])

@@ -22,9 +22,8 @@ from antinode.riccati.reasons import (
 )
 
 from . import laws
-from .certificate import certify, settle
 from .compiling import compiled
-from .prediction import keep_slopes, predict
+from .prediction import certify, keep_slopes, predict, settle
 from .workspace import (
     AT,
     BELOW,
