@@ -80,12 +80,17 @@ def eigenvalues_of(
         chains = [beams[k].chain(family, refinement) for k in rows]
         numbers = [wanted[k][family] for k in rows]
         for k, chain, omega2 in zip(rows, chains, _side_by_side(chains, numbers), strict=True):
-            modes[k][family] = ChainModes(chain, omega2)
+            modes[k][family] = ChainModes(chain, omega2, shear_form=beams[k].shear_form)
     return tuple(map(CaseEigenvalues, cases, [case.loads for case in cases], beams, modes))
 
 
 def _side_by_side(chains: Sequence[Chain], numbers: Sequence[int]) -> list[Array]:
-    """Return the eigenvalues 1 ... n of free chains of a family; those of equal size in a batch."""
+    """Return the eigenvalues 1 ... n of free chains of a family; those of equal size in a batch.
+
+    One with shear, or what else its law may have, is solved by itself.
+    """
+    if not all(chain.is_plain for chain in chains):
+        return [_solve(chain, number) for chain, number in zip(chains, numbers, strict=True)]
     found: list[Array] = [np.zeros(0)] * len(chains)
     sizes = [len(chain.length) for chain in chains]
     for size in set(sizes):

@@ -60,7 +60,8 @@ def case_influences(case: Case, result: ModalResult, most: int) -> list[Influenc
     """Return what moves the bending modes 1 ... n of a vehicle, solved before."""
     omega2 = [mode.omega2 for mode in result.family(BENDING) if mode.number][:most]
     chain = result.solutions[BENDING].chain
-    modes = ChainModes(chain, np.array(omega2), for_one(len(chain.length), len(omega2)))
+    backend = for_one(len(chain.length), len(omega2))
+    modes = ChainModes(chain, np.array(omega2), backend, result.beam.shear_form)
     sensitivity = EigenvalueDerivatives(modes, result.beam, case.loads)
     return [*_of_condition(case, sensitivity), *_of_body(case, sensitivity)]
 
