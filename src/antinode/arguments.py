@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from operator import index
@@ -66,8 +67,9 @@ def numbers(name: str, values: Any) -> Array:
     """
     if type(values) is np.ndarray and values.dtype == np.float64:
         return values
-    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
-        row = int(np.argwhere(np.atleast_1d(np.ma.getmaskarray(values)))[0, 0])
+    masked: Any = sys.modules.get("numpy.ma")  # nothing is masked before someone imports it
+    if masked and isinstance(values, masked.MaskedArray) and masked.is_masked(values):
+        row = int(np.argwhere(np.atleast_1d(masked.getmaskarray(values)))[0, 0])
         raise InputError(f"{name}: row {row + 1} is masked; fill every value in, or drop the row")
     try:
         array = np.asarray(values)
