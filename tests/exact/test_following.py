@@ -177,6 +177,7 @@ def test_shapes_keep_to_their_ends_and_to_the_weak_form(beam):
 
 def test_json_of_a_fluttering_column():
     found = an.solve_modes(column(21.0), 3).to_dict()
+    assert ["bending 2" in w and "flutter" in w for w in found["warnings"]] == [True]
     growing = [m for m in found["modes"] if m["kind"] == "flutter"]
     assert len(growing) == 1
     s = growing[0]["eigenvalue_per_s"]

@@ -23,6 +23,11 @@ ROTATION_DIVERGES = (
     "rigid rotation is divergent (omega^2 < 0), as for every free body in net compression by "
     "forces of fixed direction; control of the attitude is outside this model"
 )
+FLUTTERS = (
+    "flutter, by end forces that follow: the motion grows while it oscillates, and a twin of the "
+    "same frequency decays; damping, which the model leaves out, may lower the load at which that "
+    "starts: reduce the force or stiffen the beam"
+)
 ROTATION_NOT_TURNED_BACK = (
     "rigid rotation is divergent (omega^2 < 0): the forces that keep their direction turn the body "
     "on by more than those that follow it turn it back; control of the attitude is outside this "
@@ -69,6 +74,10 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
     divergent = [m.name for m in modes if m.kind == "divergent" and m.number]
     if divergent:
         warnings.append(f"{', '.join(divergent)}: omega^2 < 0, {PAST_BUCKLING}")
+    growing = [m for m in modes if m.kind == "flutter"]
+    if growing:
+        names = ", ".join(f"{m.name} (by {m.growth:.4g} /s)" for m in growing)
+        warnings.append(f"{names}: {FLUTTERS}")
     if any(m.kind == "divergent" and not m.number for m in modes):
         warnings.append(_rotation_warning(beam))
     shapeless = [m.name for m in modes if math.isnan(m.modal_mass)]

@@ -71,6 +71,13 @@ def comparable(
     if offset and beam.offset_weight and beam.axial_acceleration and analysis != "unloaded":
         beam = replace(beam, offset_weight=False)
         notes.append("the weight of offset masses acts at their nodes, for the beam here too")
+    if any(beam.following()):
+        beam = replace(beam, ends=replace(beam.ends, left_follower=0.0, right_follower=0.0))
+        if analysis != "unloaded":
+            notes.append(
+                "end forces that turn with the end have no card here: in the deck, and in the "
+                "frequencies beside it, they keep their direction"
+            )
     if analysis == "unloaded":
         beam = beam.without_axial_force()
     if beam is result.beam:
