@@ -139,6 +139,8 @@ class ManyBeams:
             at = middle[..., None]
             m, EI, N = (v[..., 0] for v in self._at(rows, interval, at, jump))
             return Chains(rows, right - left, m, EI, N, following=self._following(rows))
+        if self.loads.mass_distribution.interpolation == "step":
+            return self._stepped(rows, left, right, refinement, interval, jump)
         steps = np.linspace(0, 1, refinement + 1)[:-1]
         size = (right - left)[..., None] / refinement
         start = left[..., None] + (right - left)[..., None] * steps
@@ -163,9 +165,29 @@ class ManyBeams:
         ends = nose * self.loads.F_CX, tail * np.broadcast_to(thrust, self.loads.F_CX.shape)
         return np.stack(ends, axis=1)[rows]
 
+    def _stepped(
+        self,
+        rows: Integers,
+        left: Array,
+        right: Array,
+        refinement: int,
+        interval: Integers,
+        jump: Array,
+    ) -> Chains:
+        """Divide cells in which only N varies, straight: its weighted means are values of it."""
+        steps = (np.arange(refinement)[:, None] + halved(np.array(GAUSS))) / refinement
+        at = left[..., None] + (right - left)[..., None] * steps.ravel()
+        m, EI, N = self._at(rows, interval, at, jump)
+        parts = ((right - left) / (2 * refinement), m, EI, N)
+        return Chains(rows, *(_spread(v, at.shape).reshape(len(rows), -1) for v in parts))
+
     def _jumps(self, rows: Integers, middle: Array) -> Array:
         """Return the drag of all forces ahead of the middles of cells, the cavitator's included."""
-        forces = [f._replace(x=f.x[:, None], F_X=f.F_X[:, None]) for f in self._forces(rows)]
+        forces = [
+            f._replace(x=f.x[:, None], F_X=f.F_X[:, None])
+            for k, f in enumerate(self._forces(rows))
+            if not k or np.any(f.F_X)
+        ]
         return np.asarray(drag_ahead(forces, lambda force: middle > force.x))
 
     def _at(
@@ -186,13 +208,34 @@ class ManyBeams:
             N = np.broadcast_to(jump[..., None] + a_X * (ahead + after) / 2, x.shape)
         else:
             N = jump[..., None] + a_X * (ahead + mass_within(a, b, length, s, how))
+        if how == "step":
+            return a, EIa, N
         t = s / length
         return interpolated(a, b, t, how), interpolated(EIa, EIb, t, how), N
 
     def beyond_limits(self) -> npt.NDArray[np.bool_]:
-        """Tell which cases have an axial force out of all proportion to the bending stiffness."""
+        """Tell which cases have an axial force out of all proportion to the bending stiffness.
+
+        Only those are integrated that a bound on N/EI, along all of the beam, leaves open.
+        """
+        with np.errstate(all="ignore"):
+            most = self._largest_force / self.stiffness.min(axis=(-2, -1))
+        length = np.array([self.loads.cases.vehicle.length])
+        buckled, tension = waves(np.stack([most, -most])[..., None, None], 1.0, length)
+        rows = np.flatnonzero(~((buckled[0] <= MOST_BUCKLED) & (tension[1] <= MOST_TENSION)))
+        found = np.zeros(self.loads.cases.cases, dtype=bool)
+        found[rows] = self._beyond_limits(rows)
+        return found
+
+    @cached_property
+    def _largest_force(self) -> Array:
+        """A bound on abs(N) of every case [N]."""
+        loads = self.loads
+        drags = [np.abs(f.F_X) for f in loads.hydrodynamics.forces]
+        return np.asarray(sum(drags, np.abs(loads.a_X) * loads.mass))
+
+    def _beyond_limits(self, rows: Integers) -> npt.NDArray[np.bool_]:
         edges = self.loads.mass_distribution.x
-        rows = np.arange(self.loads.cases.cases)
         middle = (edges[1:] + edges[:-1])[None] / 2
         interval = np.broadcast_to(np.arange(len(edges) - 1), (len(rows), len(edges) - 1))
         jump = self._jumps(rows, np.repeat(middle, len(rows), axis=0))
@@ -201,6 +244,12 @@ class ManyBeams:
         _, EI, N = self._at(rows, interval, at, jump)
         buckled, tension = waves(N, EI, np.diff(edges))
         return np.asarray(~((buckled <= MOST_BUCKLED) & (tension <= MOST_TENSION)))
+
+
+def _spread(values: Array, shape: tuple[int, ...]) -> Array:
+    """Return values of cells at all places of them."""
+    whole = values if values.ndim == len(shape) else values[..., None]
+    return np.broadcast_to(whole, shape)
 
 
 def _mean(ends: Array) -> Array:

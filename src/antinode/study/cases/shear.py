@@ -56,8 +56,8 @@ def _estimate(
     weights = _weights(bodies, beams, sample, found.omega2)
     wanted = max(1, _ENTRIES // weights[0, 0].size)
     for some in np.array_split(rows, -(-len(rows) // wanted)):
-        own = _between(load[sample], weights, load[some]) * bodies.factors(some)
-        effect[some] = ModelErrorParts(*own.sum(axis=-1)).effect(found.omega2[some])
+        own = _sums(load[sample], weights, load[some], bodies.factors(some))
+        effect[some] = ModelErrorParts(*own).effect(found.omega2[some])
 
 
 def _spread(rows: Integers, load: Array) -> Integers:
@@ -68,16 +68,32 @@ def _spread(rows: Integers, load: Array) -> Integers:
     return np.asarray(order[np.linspace(0, len(order) - 1, _SAMPLE).round().astype(int)])
 
 
-def _between(at: Array, weights: Array, load: Array) -> Array:
-    """Interpolate weights (2, sample, modes, intervals) over the loads, which ascend."""
+def _sums(at: Array, weights: Array, load: Array, factors: Array) -> Array:
+    """Return the sums of weights times factors over the intervals, shape (2, cases, modes).
+
+    Parameters
+    ----------
+    at : array, shape (sample,)
+        Loads of the sample, which ascend.
+    weights : array, shape (2, sample, modes, intervals)
+        What is interpolated over the loads.
+    load : array, shape (cases,)
+    factors : array, shape (2, cases, 1, intervals)
+    """
     known = np.flatnonzero(np.isfinite(weights).all(axis=(0, 2, 3)))
+    found = np.full((2, len(load), weights.shape[2]), np.nan)
     if not len(known):
-        return np.full((2, len(load), *weights.shape[2:]), np.nan)
+        return found
     place = np.interp(load, at[known], np.arange(len(known)))
     low = np.minimum(place.astype(int), max(len(known) - 2, 0))
-    high = np.minimum(low + 1, len(known) - 1)
-    part = (place - low)[:, None, None]
-    return np.asarray((1 - part) * weights[:, known[low]] + part * weights[:, known[high]])
+    for k in np.unique(low).tolist():
+        rows, own = np.flatnonzero(low == k), factors[:, low == k, 0]
+        part = (place[rows] - k)[:, None]
+        near, far = (
+            own @ weights[:, known[j]].swapaxes(1, 2) for j in (k, min(k + 1, len(known) - 1))
+        )
+        found[:, rows] = (1 - part) * near + part * far
+    return found
 
 
 @dataclass(frozen=True)

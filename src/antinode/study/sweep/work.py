@@ -19,6 +19,7 @@ from .blocks import Blocks, Written
 from .build import Build, kernel_digest, this_build
 from .contents import TRACKED, outputs_of
 from .disk import own_folder
+from .memory import keep_memory
 
 
 def run_file(store: Path) -> Path:
@@ -101,6 +102,7 @@ class Done(NamedTuple):
 
 def compute_block(plan: Plan, block: int) -> Done:
     """Compute a block, and write it if the store is here."""
+    keep_memory()
     arrays = joined(compute_chunk(plan.points, chunk) for chunk in plan.chunks(block))
     return delivered(plan, block, arrays)
 
