@@ -76,6 +76,9 @@ _HOME = {
     "sweep": "study.sweep.sweep",
     "sensitivity": "study.sensitivity.sensitivity",
     "open_store": "study.sweep.folder",
+    "Answers": "study.answers.answers",
+    "case_table": "study.answers.answers",
+    "search": "study.answers.search",
     "Cavitator": "vehicle.vehicle",
     "FinSet": "vehicle.vehicle",
     "Stations": "vehicle.vehicle",
@@ -84,6 +87,7 @@ _HOME = {
 }
 
 __all__ = [
+    "Answers",
     "AntinodeError",
     "BatchResult",
     "Beam",
@@ -115,6 +119,7 @@ __all__ = [
     "Water",
     "__version__",
     "buckling",
+    "case_table",
     "compute_loads",
     "identify",
     "load_beam",
@@ -123,6 +128,7 @@ __all__ = [
     "load_study",
     "natural_frequencies",
     "open_store",
+    "search",
     "sensitivity",
     "solve_many",
     "solve_modes",

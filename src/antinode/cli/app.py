@@ -30,6 +30,7 @@ COMMANDS = {
     "verify": ("verify:verify", 6),
     "reproduce": ("reproduce:reproduce", 7),
     "sweep": ("sweep:sweep", 8),
+    "ask": ("ask:ask", 8),
     "sensitivity": ("sensitivity:sensitivity", 9),
     "identify": ("identify:identify", 10),
     "convert": ("convert:convert", 11),

@@ -59,6 +59,52 @@ class Sweep:
 
 @Parameter(name="*")
 @dataclass(frozen=True)
+class Ask:
+    """What is asked of the cases, and where the answers go."""
+
+    where: Annotated[
+        str | None,
+        option(INPUT, "Ask only cases in which this holds: --where 'speed < 100 and f1 > 2'."),
+    ] = None
+    define: Annotated[
+        tuple[str, ...],
+        flag(INPUT, "A formula with a name: --define 'gap = f2 - f1' (repeatable)."),
+    ] = ()
+    share: Annotated[
+        tuple[str, ...],
+        flag(WORK, "The share of cases in which this holds: --share 'f1 > 5' (repeatable)."),
+    ] = ()
+    smallest: Annotated[
+        tuple[str, ...],
+        flag(WORK, "The cases in which this is smallest, with their inputs (repeatable)."),
+    ] = ()
+    largest: Annotated[
+        tuple[str, ...],
+        flag(WORK, "The cases in which this is largest, with their inputs (repeatable)."),
+    ] = ()
+    quantiles: Annotated[
+        tuple[str, ...],
+        flag(WORK, "A table of how this is spread over the cases (repeatable)."),
+    ] = ()
+    number: Annotated[int, whole(WORK, "Of smallest and largest cases.")] = 5
+    search: Annotated[
+        bool,
+        flag(WORK, "Also look for smaller or larger ones inside the bounds of a study file."),
+    ] = False
+    map: Annotated[
+        str | None,
+        option(OUTPUT, "Two axes and what --plot draws over them: --map 'speed, thrust, f1'."),
+    ] = None
+    plot: Annotated[Path | None, option(OUTPUT, "Draw the map: .png, .svg or .pdf.")] = None
+    output: Annotated[
+        Path | None,
+        option(OUTPUT, "Write all cases as a table: .csv or .parquet.", "-o", "--output"),
+    ] = None
+    json: Json = False
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
 class Sensitivity:
     """What is uncertain, how it is sampled, and where the result goes."""
 

@@ -221,7 +221,7 @@ class ManyBeams:
         with np.errstate(all="ignore"):
             most = self._largest_force / self.stiffness.min(axis=(-2, -1))
         length = np.array([self.loads.cases.vehicle.length])
-        buckled, tension = waves(np.stack([most, -most])[..., None, None], 1.0, length)
+        buckled, tension = waves(np.stack([most, -most])[..., None, None], np.ones(1), length)
         rows = np.flatnonzero(~((buckled[0] <= MOST_BUCKLED) & (tension[1] <= MOST_TENSION)))
         found = np.zeros(self.loads.cases.cases, dtype=bool)
         found[rows] = self._beyond_limits(rows)

@@ -36,8 +36,13 @@ def mode_names(study: Study) -> list[str]:
 
 def compute_chunk(points: Points, chunk: int) -> Arrays:
     """Compute a chunk: arrays over its cases, by the names of the variables of the result."""
+    return solve_values(points, points.values(chunk))
+
+
+def solve_values(points: Points, values: Array) -> Arrays:
+    """Compute the same of any cases, by the values of their inputs, (cases, inputs)."""
     study = points.study
-    cases = Cases(study, points.variables, points.values(chunk))
+    cases = Cases(study, points.variables, values)
     beams = beams_of(cases)
     size = study.tracking.points if points.tracked else 0
     found, shear = _every_family(cases, beams, size)

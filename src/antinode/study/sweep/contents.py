@@ -241,5 +241,17 @@ def labelled(dataset: xarray.Dataset) -> xarray.Dataset:
     return kept.assign_coords(coordinates).set_coords([*inputs, *_present(kept, ("point",))])
 
 
+def blank(points: Points) -> xarray.Dataset:
+    """Return what a result looks like before anything is solved: one case, all numbers 0."""
+    import xarray
+
+    data: dict[str, Any] = {
+        name: (about.dims, np.zeros((1, *about.shape[1:])), about.attrs)
+        for name, about in outputs_of(points).items()
+    }
+    data.update(coordinates_of(points))
+    return labelled(xarray.Dataset(data, attrs=attributes(points)))
+
+
 def _present(dataset: xarray.Dataset, names: tuple[str, ...]) -> list[str]:
     return [name for name in names if name in dataset.variables]

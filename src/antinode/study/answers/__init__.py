@@ -1,0 +1,1 @@
+"""Questions to a sweep that is done: shares, worst cases, quantiles, figures, searches."""
