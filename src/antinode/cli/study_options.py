@@ -124,10 +124,15 @@ class Sensitivity:
         ),
     ] = None
     workers: Annotated[int | None, whole(WORK, "Processes; default: 1.")] = None
+    scheduler: Annotated[
+        str | None,
+        option(WORK, "Address of a Dask scheduler, tcp://host:8786, whose workers compute."),
+    ] = None
     store: Annotated[
         Path | None,
         option(OUTPUT, "Folder that keeps all cases, as -o of sweep does."),
     ] = None
+    overwrite: Annotated[bool, flag(OUTPUT, "Replace a store of another study.")] = False
     plot: Annotated[
         Path | None, option(OUTPUT, "Draw a tornado of indices: .png, .svg or .pdf.")
     ] = None

@@ -89,20 +89,31 @@ def search(
     ComputationError
         If no case of the design has the number.
     """
-    import scipy.optimize
-
-    optimize: Any = scipy.optimize
-    answers = Answers(dataset, define=define)
-    points = points_of(study)
+    answers, points = Answers(dataset, define=define), points_of(study)
     asked = _Asked(points, answers, text, -1.0 if largest else 1.0)
     start = answers.worst(text, max(_GENERATION, 4 * len(points.variables)), largest=largest)
     if not start.values:
         raise ComputationError(f"no case of the design has {text}; nothing to start from")
-    rng = np.random.default_rng(study.design.seed)
+    best, least = _evolved(asked, start.inputs, study.design.seed)
+    edge = [v.name for v, u in zip(points.variables, best, strict=True) if min(u, 1 - u) < _EDGE]
+    values = asked.values(best[None])[0]
+    inputs = {v.name: float(x) for v, x in zip(points.variables, values, strict=True)}
+    value, design = asked.sign * least, start.values[0]
+    return Found(text, start.unit, largest, value, design, inputs, tuple(edge), asked.evaluations)
+
+
+def _evolved(asked: _Asked, start: Any, seed: int) -> tuple[Array, float]:
+    """Return where a number is smallest, each input from 0 to 1, and that number."""
+    import scipy.optimize
+
+    optimize: Any = scipy.optimize
+    rng = np.random.default_rng(seed)
+    first = asked.population(start, rng)
+    bounds = [(0.0, 1.0)] * first.shape[1]
     evolved = optimize.differential_evolution(
         lambda x: asked(x.T),
-        [(0.0, 1.0)] * len(points.variables),
-        init=asked.population(start.inputs, rng),
+        bounds,
+        init=first,
         maxiter=_GENERATIONS,
         vectorized=True,
         updating="deferred",
@@ -114,17 +125,11 @@ def search(
         lambda x: float(asked(x[None])[0]),
         evolved.x,
         method="Nelder-Mead",
-        bounds=[(0.0, 1.0)] * len(points.variables),
+        bounds=bounds,
         options={"maxfev": _POLISH, "xatol": 1e-6, "fatol": 1e-10},
     )
-    best = polished.x if polished.fun < evolved.fun else evolved.x
-    edge = [v.name for v, u in zip(points.variables, best, strict=True) if min(u, 1 - u) < _EDGE]
-    value = asked.sign * float(min(polished.fun, evolved.fun))
-    values = asked.values(best[None])[0]
-    inputs = {v.name: float(x) for v, x in zip(points.variables, values, strict=True)}
-    return Found(
-        text, start.unit, largest, value, start.values[0], inputs, tuple(edge), asked.evaluations
-    )
+    best = min(polished, evolved, key=lambda found: float(found.fun))
+    return np.asarray(best.x), float(best.fun)
 
 
 class _Asked:

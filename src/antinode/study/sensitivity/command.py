@@ -36,16 +36,26 @@ def run_sensitivity(
     *,
     samples: int | None,
     workers: int | None,
+    scheduler: str | None,
     store: Path | None,
+    overwrite: bool,
     plot: Path | None,
     json: bool,
 ) -> None:
     """Compute sensitivities, and give the result out."""
     check_plot(plot)
+    if scheduler is not None and workers is not None:
+        raise InputError("--workers and --scheduler contradict: give one of them")
     study = read_uncertain(file, assignments, uncertain)
     try:
         result = sensitivity(
-            study, samples, workers=workers or 1, store=store, progress=cases_progress()
+            study,
+            samples,
+            workers=workers or 1,
+            scheduler=scheduler,
+            store=store,
+            overwrite=overwrite,
+            progress=cases_progress(),
         )
     finally:
         end_progress()

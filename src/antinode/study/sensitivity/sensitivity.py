@@ -143,7 +143,9 @@ def sensitivity(
     samples: int | None = None,
     *,
     workers: int = 1,
+    scheduler: str | None = None,
     store: str | Path | None = None,
+    overwrite: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> SensitivityResult:
     """Compute the sensitivities of all frequencies of a study to its inputs.
@@ -156,8 +158,11 @@ def sensitivity(
         Of each arrangement; inputs + 2 times as many cases are solved. By default design.number,
         or 1024.
     workers : int
+    scheduler : str, optional
     store : str or Path, optional
-        Where the cases are kept, as in `sweep`.
+        Where the cases are kept.
+    overwrite : bool
+        These four are those of `sweep`.
     progress : callable, optional
 
     Raises
@@ -174,7 +179,14 @@ def sensitivity(
     outputs = tuple(dict.fromkeys(("frequency_hz", "model_error", *study.outputs)))
     made = study.model_copy(update={"design": design, "outputs": outputs})
     points = points_of(made)
-    data = sweep(made, store, workers=workers, progress=progress)
+    data = sweep(
+        made,
+        store,
+        workers=workers,
+        scheduler=scheduler,
+        overwrite=overwrite,
+        progress=progress,
+    )
     hz, effect = np.asarray(data["frequency_hz"]), np.asarray(data["model_error"])
     _check_known(hz[: 2 * number])
     slopes = local_slopes(made, points)

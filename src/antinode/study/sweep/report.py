@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -29,24 +28,24 @@ _BLOCK = 100_000
 
 def summary(points: Points, dataset: xarray.Dataset) -> dict[str, Any]:
     """Return what a sweep has found as plain values: ranges by mode, failures, warnings."""
-    reason = np.asarray(dataset["reason"])
-    wrong = failed(reason)
+    codes = _codes(dataset)
     modes = [] if "frequency_hz" not in dataset else _ranges(dataset)
     return {
         "schema_version": 1,
         "name": points.study.name or points.study.case.vehicle.name,
         "cases": points.cases,
-        "failed": int(wrong.sum()),
-        "past_buckling": int(np.sum(reason == PAST_BUCKLING)),
+        "failed": sum(number for code, (number, _) in codes.items() if _fails(code)),
+        "past_buckling": codes.get(PAST_BUCKLING, (0, 0))[0],
         "failures": [
             {
                 "code": code,
                 "reason": WHY[code],
                 "cases": number,
-                "first_case": int(np.flatnonzero(reason == code)[0]),
-                "text": failure_text(points, int(np.flatnonzero(reason == code)[0])),
+                "first_case": first,
+                "text": failure_text(points, first),
             }
-            for code, number in sorted(Counter(reason[wrong].tolist()).items())
+            for code, (number, first) in sorted(codes.items())
+            if _fails(code)
         ],
         "inputs": [
             {"name": v.name, "key": v.key, "unit": v.unit, **_range(dataset[v.name])}
@@ -57,9 +56,32 @@ def summary(points: Points, dataset: xarray.Dataset) -> dict[str, Any]:
     }
 
 
+def _fails(code: int) -> bool:
+    return bool(failed(np.array(code)))
+
+
+def _blocks(values: xarray.DataArray) -> Iterator[tuple[int, Any]]:
+    """Yield an output a block of cases at a time, with the first case of each."""
+    for start in range(0, values.sizes["case"], _BLOCK):
+        yield start, np.asarray(values[start : start + _BLOCK])
+
+
+def _codes(dataset: xarray.Dataset) -> dict[int, tuple[int, int]]:
+    """Return how many cases have each reason, and the first of them."""
+    found: dict[int, tuple[int, int]] = {}
+    for start, reason in _blocks(dataset["reason"]):
+        for code, at, number in zip(
+            *(v.tolist() for v in np.unique(reason, return_index=True, return_counts=True)),
+            strict=True,
+        ):
+            before, first = found.get(code, (0, start + at))
+            found[code] = before + number, first
+    return found
+
+
 def _range(values: xarray.DataArray) -> dict[str, float]:
-    data = np.asarray(values)
-    return {"least": float(np.min(data)), "largest": float(np.max(data))}
+    ends = np.array([(part.min(), part.max()) for _, part in _blocks(values)])
+    return {"least": float(ends[:, 0].min()), "largest": float(ends[:, 1].max())}
 
 
 def _ranges(dataset: xarray.Dataset) -> list[dict[str, Any]]:
@@ -93,11 +115,10 @@ class _Extent(NamedTuple):
 
 def _extent(dataset: xarray.Dataset, output: str) -> _Extent:
     """Look through the cases, a block at a time."""
-    modes, n = dataset.sizes["mode"], dataset.sizes["case"]
+    modes = dataset.sizes["mode"]
     least, largest = np.full(modes, np.inf), np.full(modes, -np.inf)
     total, count = np.zeros(modes), np.zeros(modes, dtype=np.int64)
-    for start in range(0, n if output in dataset else 0, _BLOCK):
-        part = np.asarray(dataset[output][start : start + _BLOCK])
+    for _, part in _blocks(dataset[output]) if output in dataset else ():
         known = np.isfinite(part)
         least = np.minimum(least, np.min(part, axis=0, where=known, initial=np.inf))
         largest = np.maximum(largest, np.max(part, axis=0, where=known, initial=-np.inf))

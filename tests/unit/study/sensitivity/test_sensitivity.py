@@ -180,3 +180,16 @@ def test_what_is_wrong_is_said(folder):
     refused_words = ("of the samples", "narrow")
     assert ended.code == 1
     assert all(word in ended.err for word in refused_words)
+
+
+def test_workers_and_a_scheduler_contradict(folder):
+    both = ("--workers", "2", "--scheduler", "tcp://127.0.0.1:9")
+    refused(run("sensitivity", folder / "samples.toml", *both), "--workers and --scheduler")
+
+
+def test_a_store_of_another_study_is_replaced_where_that_is_wished(folder, tmp_path):
+    store, few = tmp_path / "s.zarr", ("--samples", "8", "--set", "solve.modes=2")
+    assert run("sensitivity", folder / "samples.toml", "--store", store, *few).code == 0
+    other = ("sensitivity", folder / "samples.toml", "--store", store, "--samples", "16")
+    refused(run(*other), "another study", "--overwrite")
+    assert run(*other, "--overwrite").code == 0
