@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -32,6 +32,9 @@ from antinode.vehicle.effects import by_logarithm, effect_of_number, effect_of_r
 from antinode.vehicle.numbers import value_at
 
 from .indices import Indices, sobol_indices
+
+if TYPE_CHECKING:
+    import xarray
 
 
 @dataclass(frozen=True)
@@ -187,12 +190,17 @@ def sensitivity(
         overwrite=overwrite,
         progress=progress,
     )
+    return _result(made, points, data, number)
+
+
+def _result(study: Study, points: Points, data: xarray.Dataset, number: int) -> SensitivityResult:
+    """Evaluate the cases of a study, so many samples of each arrangement."""
     hz, effect = np.asarray(data["frequency_hz"]), np.asarray(data["model_error"])
     _check_known(hz[: 2 * number])
-    slopes = local_slopes(made, points)
+    slopes = local_slopes(study, points)
     modes = [
         _mode(points, name, (hz[:, k], effect[:, k]), number, slopes)
-        for k, name in enumerate(mode_names(made))
+        for k, name in enumerate(mode_names(study))
     ]
     left_out = tuple(_left_out(modes, hz, number))
     return SensitivityResult(
