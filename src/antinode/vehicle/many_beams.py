@@ -179,7 +179,8 @@ class ManyBeams:
         at = left[..., None] + (right - left)[..., None] * steps.ravel()
         m, EI, N = self._at(rows, interval, at, jump)
         parts = ((right - left) / (2 * refinement), m, EI, N)
-        return Chains(rows, *(_spread(v, at.shape).reshape(len(rows), -1) for v in parts))
+        length, m, EI, N = (_spread(v, at.shape).reshape(len(rows), -1) for v in parts)
+        return Chains(rows, length, m, EI, N)
 
     def _jumps(self, rows: Integers, middle: Array) -> Array:
         """Return the drag of all forces ahead of the middles of cells, the cavitator's included."""
