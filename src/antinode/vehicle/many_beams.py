@@ -180,7 +180,7 @@ class ManyBeams:
         m, EI, N = self._at(rows, interval, at, jump)
         parts = ((right - left) / (2 * refinement), m, EI, N)
         length, m, EI, N = (_spread(v, at.shape).reshape(len(rows), -1) for v in parts)
-        return Chains(rows, length, m, EI, N)
+        return Chains(rows, length, m, EI, N, following=self._following(rows))
 
     def _jumps(self, rows: Integers, middle: Array) -> Array:
         """Return the drag of all forces ahead of the middles of cells, the cavitator's included."""
