@@ -21,10 +21,12 @@ from antinode import (
     load_study,
     sensitivity,
     solve_modes,
+    solve_response,
     sweep,
 )
 from antinode.show.end_forces import plot_end_forces
 from antinode.show.figures import PALETTE, plot_case, plot_loads, plot_modes, save
+from antinode.show.response_figures import plot_response
 from antinode.show.style import BODY, GREY, INK, WIDTH, styled
 from antinode.study.sensitivity.command import read_uncertain
 from antinode.study.sensitivity.command import tornado as plot_tornado
@@ -66,6 +68,12 @@ def end_forces() -> None:
     shape = result.mode("bending", 1).shape
     figure = plot_end_forces(result.x, shape, compare_end_forces(case, result))
     save(figure, IMAGES / "howto_end_forces.png")
+
+
+def equipment() -> None:
+    """Draw what the equipment of the example feels."""
+    result = solve_response(EXAMPLES / "response" / "response.toml")
+    save(plot_response(result), IMAGES / "howto_equipment.png")
 
 
 def sweeps() -> None:
@@ -249,6 +257,7 @@ MAKERS = (
     ruler_modes,
     howto,
     end_forces,
+    equipment,
     sweeps,
     tornado,
     speed_sweep,

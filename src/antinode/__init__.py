@@ -23,6 +23,12 @@ if TYPE_CHECKING:
     from .modes.frequencies import Frequencies, natural_frequencies
     from .modes.result import ModalResult, Mode
     from .modes.solve import solve_modes
+    from .response.damping import Damping
+    from .response.file import load_response
+    from .response.frequency import frequency_response
+    from .response.quantities import Base, Force, Output
+    from .response.shock import srs
+    from .response.solve import solve_response
     from .study.design.file import Study, load_study
     from .study.identify.file import IdentificationProblem, load_identification
     from .study.identify.identification import identify
@@ -67,6 +73,14 @@ _HOME = {
     "solve_modes": "modes.solve",
     "ModalResult": "modes.result",
     "Mode": "modes.result",
+    "Base": "response.quantities",
+    "Damping": "response.damping",
+    "Force": "response.quantities",
+    "Output": "response.quantities",
+    "frequency_response": "response.frequency",
+    "load_response": "response.file",
+    "solve_response": "response.solve",
+    "srs": "response.shock",
     "Identification": "study.identify.result",
     "identify": "study.identify.identification",
     "IdentificationProblem": "study.identify.file",
@@ -89,6 +103,7 @@ _HOME = {
 __all__ = [
     "Answers",
     "AntinodeError",
+    "Base",
     "BatchResult",
     "Beam",
     "BeamBatch",
@@ -97,9 +112,11 @@ __all__ = [
     "Case",
     "Cavitator",
     "ComputationError",
+    "Damping",
     "Dashpot",
     "Ends",
     "FinSet",
+    "Force",
     "Frequencies",
     "Identification",
     "IdentificationProblem",
@@ -111,6 +128,7 @@ __all__ = [
     "Mode",
     "Model",
     "OperatingCondition",
+    "Output",
     "PointMass",
     "Spring",
     "Stations",
@@ -121,10 +139,12 @@ __all__ = [
     "buckling",
     "case_table",
     "compute_loads",
+    "frequency_response",
     "identify",
     "load_beam",
     "load_case",
     "load_identification",
+    "load_response",
     "load_study",
     "natural_frequencies",
     "open_store",
@@ -132,6 +152,8 @@ __all__ = [
     "sensitivity",
     "solve_many",
     "solve_modes",
+    "solve_response",
+    "srs",
     "sweep",
 ]
 

@@ -110,3 +110,41 @@ def test_a_shaken_beam_on_soil_moves_with_it_at_low_frequencies():
     outputs = [Output(x, "displacement") for x in (0.3, 2.0, 4.0)]
     response = frequency_response(beam, [1e-3], [Base("lateral", "displacement")], outputs)
     np.testing.assert_allclose(response.values[:, 0, 0], 1.0, atol=1e-6)
+
+
+@pytest.mark.parametrize("eta", [0.0, 0.5, 1.0])
+def test_an_end_force_that_follows_is_a_spring_without_a_partner(eta):
+    """Q = eta N psi at the end is a force -eta N psi there: it enters finite elements so."""
+    from forced_beam import HpResponse
+
+    beam = Beam.from_stations([0, 0.6, 1.0], 1.0, 1.0, axial_force=8.0,
+                              ends=Ends("clamped", right_follower=eta))  # fmt: skip
+    omega = np.array([1.0, 7.0, 21.0])
+    outputs = [Output(0.6, "displacement"), Output(1.0, "slope")]
+    found = frequency_response(
+        beam, omega / 2 / np.pi, [Force(0.6)], outputs, damping=Damping(0.02)
+    )
+    mesh = HpResponse(beam, 0.02)
+    end, turn = mesh.dof(1.0), mesh.dof(1.0, 1)
+    mesh.K[end, turn] += eta * 8.0
+    for k, w in enumerate(omega):
+        u = mesh.by_force(w, 0.6)
+        exact = [u[mesh.dof(0.6)], u[turn]]
+        np.testing.assert_allclose(found.values[:, 0, k], exact, rtol=1e-7)
+
+
+def test_a_coupled_spring_moves_with_the_ground():
+    """Springs k, k_r, k_c on moving ground push by k (Y - g) + k_c psi, turn by k_c (Y - g)."""
+    from antinode.beam.attachments import Spring
+
+    beam = Beam.from_stations([0, 1.0], 2.0, 1e9)
+    k, turn, couple = 50.0, 40.0, 9.0
+    beam = beam.with_attachments(Spring(0.5, k, turn, coupling=couple))
+    hertz = np.array([0.3, 0.9, 2.0])
+    w2 = (2 * np.pi * hertz) ** 2
+    outputs = [Output(0.5, "displacement"), Output(0.5, "slope")]
+    found = frequency_response(beam, hertz, [Base("lateral", "displacement")], outputs)
+    for row, w in enumerate(w2):
+        D = np.array([[k - 2.0 * w, couple], [couple, turn - 2.0 / 12 * w]])
+        exact = np.linalg.solve(D, [k, couple])
+        np.testing.assert_allclose(found.values[:, 0, row], exact, rtol=1e-5)

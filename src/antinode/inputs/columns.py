@@ -54,7 +54,7 @@ class Column:
         self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
         items = {"type": ["number", "string"], "description": f"SI number [{self.unit}], or a text"}
-        return {"type": "array", "minItems": 2, "items": items, "unit": self.unit}
+        return {"type": "array", "minItems": 2, "items": items, "unit": self.unit or "1"}
 
 
 def increasing(x: Array) -> None:

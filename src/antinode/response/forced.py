@@ -9,7 +9,6 @@ varies the chain is an approximation: `refined` halves its steps, by the one err
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -138,15 +137,7 @@ class Forced:
         left, right = sides.left[place], sides.right[place]
         jump = right - left
         point = next((p for p in self.chain.points if p.node == node), Point(node))
-        free = replace(
-            point,
-            spring=0.0,
-            rotational_spring=0.0,
-            coupling=0.0,
-            dashpot=0.0,
-            rotational_dashpot=0.0,
-        )
-        jump = jump - (law.load(free, lanes.omega2) - np.eye(law.size)) @ left
+        jump = jump - (law.load(point.off_ground, lanes.omega2) - np.eye(law.size)) @ left
         if node in self.loads.at_nodes:
             jumps = np.array([unit_jump(law, i) for i in range(law.size // 2)])
             jump = jump - jumps.T @ self.loads.at_nodes[node]

@@ -16,7 +16,7 @@ from .damping import Damping
 from .equipment import Verdict, items_of
 from .file import Problem
 from .frequency import Model
-from .modal import Basis, basis, modes_below
+from .modal import Basis, basis, fixed_direction, modes_below
 from .modal_sum import modal_response
 from .numbers import plain
 from .peaks import Peak, find_peaks, with_resonances
@@ -143,7 +143,11 @@ def bases(
     damping: Damping,
     highest_hz: float,
 ) -> tuple[Basis, ...]:
-    """Return all modes up to a frequency, as a basis, of each family that is driven."""
+    """Return all modes up to a frequency, as a basis, of each family that is driven.
+
+    Where an end force follows they are those of a force of fixed direction: near by.
+    """
+    beam = fixed_direction(beam)
     families = dict.fromkeys(drive.family for drive in drives)
     return tuple(
         basis(beam, f, modes_below(beam, f, _ABOVE * highest_hz) + 1, drives, outputs, damping)
@@ -151,8 +155,13 @@ def bases(
     )
 
 
-def resonance_warnings(modes: tuple[Basis, ...], low: float, high: float) -> list[str]:
-    """Say which modes in a band have no damping, and what their response then means."""
+def resonance_warnings(beam: Beam, modes: tuple[Basis, ...], low: float, high: float) -> list[str]:
+    """Say which modes in a band have no damping, and if peaks are looked for by others near by."""
+    if any(beam.ends.follow):
+        return [
+            "the force of an end turns with it: the response is exact, but peaks are looked for by "
+            "the modes of a force of fixed direction, and named by them; a narrow one may be missed"
+        ]
     names = [
         name
         for own in modes
@@ -198,7 +207,7 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
         return np.asarray(np.abs(np.einsum("odk,d->ok", at(places), amplitude)))
 
     peaks = find_peaks(sizes, grid, sizes(grid)) if len(grid) > 2 else [[] for _ in outputs]
-    warnings = resonance_warnings(modes, float(frequency[0]), float(frequency[-1]))
+    warnings = resonance_warnings(problem.beam, modes, float(frequency[0]), float(frequency[-1]))
     verdicts = []
     for row, item in enumerate(items, shown):
         more = [peak.frequency_hz for peak in peaks[row]]

@@ -86,11 +86,19 @@ class Basis:
 def modes_below(beam: Beam, family: FamilyName, frequency_hz: float) -> int:
     """Return how many modes lie below a frequency, about: by the count of a coarse chain."""
     omega2 = (2 * np.pi * frequency_hz) ** 2
+    beam = fixed_direction(beam)
     chain = beam.chain(family)
     if np.any(beam.varies(family)):
         waves = float(np.sum(chain.law.oscillation(chain, omega2) * chain.length)) / np.pi
         chain = beam.chain(family, max(1, int(waves / 4)))
     return int(count_below(chain, [omega2])[0])
+
+
+def fixed_direction(beam: Beam) -> Beam:
+    """Return a beam whose end forces keep their direction."""
+    if not any(beam.ends.follow):
+        return beam
+    return replace(beam, ends=replace(beam.ends, left_follower=0.0, right_follower=0.0))
 
 
 def solved_modes(beam: Beam, family: FamilyName, modes: int) -> ModalResult:
@@ -125,7 +133,18 @@ def basis(
         With a breakpoint at every station.
     modes : int
         Elastic modes, besides rigid ones.
+
+    Raises
+    ------
+    InputError
+        If the force of an end turns with it: such modes are no basis.
     """
+    if any(beam.ends.follow):
+        raise InputError(
+            "the force of an end turns with it: its modes are not orthogonal, and no sum of them "
+            "is a response; ask for a harmonic or random one with a loss factor, or set "
+            "left_follower and right_follower to 0"
+        )
     result = solved_modes(beam, family, modes)
     found = result.family(family)
     solution = result.solutions[family]
@@ -205,12 +224,13 @@ class _Shown:
         """Return what the ground does to the beam at a node, by the jump there and at an end."""
         law, last = self.chain.law, len(self.chain.length)
         point = next((p for p in self.chain.points if p.node == node), Point(node))
-        free = replace(point, spring=0.0, rotational_spring=0.0, coupling=0.0)
         zero = np.zeros_like(self.states[0])
         left = self.left(node) if node else zero
         right = self.states[node] if node < last else zero
         felt = left if node else right
-        inertia = np.einsum("nij,nj->ni", law.load(free, self.omega2) - np.eye(law.size), felt)
+        inertia = np.einsum(
+            "nij,nj->ni", law.load(point.off_ground, self.omega2) - np.eye(law.size), felt
+        )
         one = Point(0, mass=1.0) if freedom == 0 else Point(0, inertia=1.0)
         unit = (law.load(one, np.ones(1))[0] - np.eye(law.size))[:, freedom]
         force = int(np.flatnonzero(unit)[0])
@@ -243,7 +263,7 @@ class _Shown:
         one = np.eye(law.size)[:1]
         for point in chain.points:
             z = self.before_joint(point.node)
-            free = replace(point, compliance=0.0)
+            free = replace(point.off_ground, compliance=0.0)
             for row, sign in ((z + one, 0.25), (z - one, -0.25)):
                 total = total + sign * law.point_energies(free, row, False)[0]
         return np.asarray(total)

@@ -418,7 +418,7 @@ def solve_random(problem: Problem) -> RandomResult:
         return inputs.spectra_of(model.quick(places), places)
 
     peaks = find_peaks(sizes, grid, sizes(grid))
-    shown, warnings = len(file.outputs), resonance_warnings(modes, *band)
+    shown, warnings = len(file.outputs), resonance_warnings(problem.beam, modes, *band)
     verdicts = [
         _judge(item, shown + k, model, inputs, modes, peaks[shown + k], grid, file.drive_names)
         for k, item in enumerate(items)

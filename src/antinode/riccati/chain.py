@@ -379,13 +379,18 @@ def _beside(chain: Chain, side: int) -> dict[str, Any]:
     return {name: values[side] for name, values in chain.columns.items()}
 
 
-def characteristic(chain: Chain, F: Array, units: Array) -> Array:
-    """Return the determinant of what the right end wants to vanish in the last frame, (k,)."""
+def right_conditions(chain: Chain, units: Array) -> Array:
+    """Return what vanishes at the right end: rows that give zero times its states, (k, d, s)."""
     rows, kappa = chain.law.conditions(chain.right, _beside(chain, -1), units), chain.following[-1]
     if kappa:
         rows = rows.copy()
         rows[:, -1, 1] -= _turn(kappa, units)
-    return determinant(rows @ F)
+    return rows
+
+
+def characteristic(chain: Chain, F: Array, units: Array) -> Array:
+    """Return the determinant of what the right end wants to vanish in the last frame, (k,)."""
+    return determinant(right_conditions(chain, units) @ F)
 
 
 def negative_at_nodes(law: Law, steps: Steps, frames: Sweep) -> Integers:

@@ -23,7 +23,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .arrays import Array, Integers, Numbers
-from .chain import Chain, end_frame, multiply_groups, split_long, state_units
+from .chain import (
+    Chain,
+    end_frame,
+    multiply_groups,
+    right_conditions,
+    split_long,
+    state_units,
+)
 from .laws import Columns, Law, Units
 from .points import Point
 from .shapes import gauss_rule, kept_nodes
@@ -198,8 +205,7 @@ class _Sweep:
     def last_coefficients(self) -> Numbers:
         """Return the coefficients that meet the right end's conditions."""
         chain, last = self.chain, self.steps[-1]
-        beside = {name: float(values[-1]) for name, values in chain.columns.items()}
-        C = self.law.conditions(chain.right, beside, self.units)
+        C = right_conditions(chain, self.units)
         wall = np.zeros_like(last.p)
         for row in self.law.ends[chain.right]:
             wall[:, row] = self._ground(row)
@@ -227,11 +233,9 @@ class _Sweep:
         spring: Any = point.spring + point.dashpot * self.lanes.dashpot
         turning: Any = point.rotational_spring + point.rotational_dashpot * self.lanes.dashpot
         stiff = replace(point, spring=spring, rotational_spring=turning)
-        jump = unit_jump(law, 0)[:, None] * self.loads.ground
-        f += spring[:, None, None] * jump / self.units[:, :, None]
-        if point.coupling:
-            turn = unit_jump(law, 1)[:, None] * self.loads.ground
-            f += point.coupling * turn / self.units[:, :, None]
+        tied = replace(stiff, mass=0.0, inertia=0.0, own_load=0.0)
+        pull = np.eye(law.size)[:, 0] - law.load(tied, self.lanes.omega2)[:, :, 0]
+        f += pull[:, :, None] * self.loads.ground / self.units[:, :, None]
         self._pass(self._scaled(law.load(stiff, self.lanes.omega2)), f)
 
     def _pass_segments(self, node: int, end: int) -> None:

@@ -71,6 +71,18 @@ class Point:
         return self.dashpot != 0.0 or self.rotational_dashpot != 0.0
 
     @property
+    def off_ground(self) -> Point:
+        """The same without what ties it to the ground: a mass and a joint."""
+        return Point(
+            self.node,
+            self.mass,
+            self.offset,
+            self.inertia,
+            compliance=self.compliance,
+            own_load=self.own_load,
+        )
+
+    @property
     def loads(self) -> bool:
         """Whether a mass or a finite spring acts here."""
         springs = (self.spring, self.rotational_spring, self.coupling)

@@ -270,7 +270,7 @@ class TestInit:
             check=False,
         )
         assert done.returncode == 0, done.stderr
-        assert "bending 2" in done.stdout
+        assert "bending 1" in done.stdout
 
     def test_never_overwrites_and_writes_all_or_nothing(self, tmp_path):
         (tmp_path / STATIONS).write_text("mine")

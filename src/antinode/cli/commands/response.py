@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from antinode.cli.options import OUTPUT, Json, assignments, option
+
+if TYPE_CHECKING:
+    from antinode.response.file import Problem
 
 ResponseSet = Annotated[
     tuple[str, ...],
@@ -17,6 +20,21 @@ ResponseSet = Annotated[
     ),
 ]
 
+ResultFile = Annotated[
+    Path | None,
+    option(
+        OUTPUT,
+        "Write the result to a file: .json, .csv (a table), or .uff (dataset 58).",
+        "-o",
+        "--output",
+    ),
+]
+PlotFile = Annotated[Path | None, option(OUTPUT, "Draw the result: .png, .svg or .pdf.")]
+ModelFile = Annotated[
+    Path | None,
+    option(OUTPUT, "Also write A, B, C, D of its modes to a file of MATLAB's: .mat."),
+]
+
 
 def response(
     file: Path,
@@ -24,16 +42,9 @@ def response(
     *,
     set_: ResponseSet = (),
     json: Json = False,
-    output: Annotated[
-        Path | None,
-        option(
-            OUTPUT,
-            "Write the result to a file: .json, .csv (a table), or .uff (dataset 58).",
-            "-o",
-            "--output",
-        ),
-    ] = None,
-    plot: Annotated[Path | None, option(OUTPUT, "Draw the result: .png, .svg or .pdf.")] = None,
+    output: ResultFile = None,
+    plot: PlotFile = None,
+    state_space: ModelFile = None,
 ) -> None:
     """Compute what equipment feels and what a structure must carry.
 
@@ -59,7 +70,10 @@ def response(
         from antinode.exchange.responses import check_response_output, write_response
 
         check_response_output(output)
-    result = solve_response(load_response(file, set_))
+    problem = load_response(file, set_)
+    if state_space:
+        _write_state_space(problem, state_space)
+    result = solve_response(problem)
     if output:
         write_response(output, result)
         say_written(output)
@@ -76,3 +90,17 @@ def response(
         show_response(console(), result)
     if not getattr(result, "passed", True):
         sys.exit(3)
+
+
+def _write_state_space(problem: Problem, path: Path) -> None:
+    """Write the modes of a problem as a model in time."""
+    from antinode.response.state_space import state_space
+    from antinode.show.outcome import say_written
+    from antinode.show.writing import check_output, write_whole
+
+    check_output(path, (".mat",))
+    file = problem.file
+    modes = file.response.modes or 10
+    model = state_space(problem.beam, file.drives, file.outputs, modes, damping=problem.damping)
+    write_whole(path, model.write_mat)
+    say_written(path)
