@@ -203,4 +203,6 @@ def test_random_beams_against_finite_elements(index):
     away = np.max(np.abs(response.values - found[1]), axis=-1)
     size = np.max(np.abs(response.values), axis=-1)
     assert np.all(spread < 1e-5 * size)
-    assert np.all(away <= response.error + 4 * spread + 1e-9 * size)
+    slack = 4 * spread + 1e-9 * size
+    slack[:, 2] += 2e-9 / omega[0] ** 2  # the elements' motion is relative, and may cancel
+    assert np.all(away <= response.error + slack)
