@@ -53,8 +53,9 @@ class Column:
     def __get_pydantic_json_schema__(
         self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
-        items = {"type": ["number", "string"], "description": f"SI number [{self.unit}], or a text"}
-        return {"type": "array", "minItems": 2, "items": items, "unit": self.unit or "1"}
+        unit = self.unit or "1"
+        items = {"type": ["number", "string"], "description": f"SI number [{unit}], or a text"}
+        return {"type": "array", "minItems": 2, "items": items, "unit": unit}
 
 
 def increasing(x: Array) -> None:

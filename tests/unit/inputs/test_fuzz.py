@@ -16,7 +16,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from antinode import ComputationError, InputError
-from antinode.beam.file import COLUMNS as BEAM_COLUMNS
+from antinode.beam.file import ALL_COLUMNS as BEAM_COLUMNS
 from antinode.beam.file import BeamFile, load_beam
 from antinode.examples import EXAMPLES
 from antinode.inputs.explain import validate
@@ -57,6 +57,13 @@ INLINE = {
 }
 
 
+DRAWN = {
+    "x": [0.0, "10 m", 40.0, 40.0, 80.0],
+    "outer_diameter": ["2 m", 2.0, 1.5, 1.5, "120 cm"],
+    "wall": ["20 mm", 0.02, 0.02, 0.01, 0.01],
+}
+
+
 def tables(name):
     """The tables of an example, with stations inline."""
     folder = files("antinode.examples") / name
@@ -64,6 +71,8 @@ def tables(name):
     found = tomllib.loads(file.read_text(encoding="utf-8"))
     if "vehicle" in found:
         found["vehicle"]["stations"] = copy.deepcopy(INLINE)
+    elif isinstance(found["beam"]["stations"], str):
+        found["beam"]["stations"] = copy.deepcopy(DRAWN)
     return found
 
 
