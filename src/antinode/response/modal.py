@@ -21,6 +21,7 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.beam.representation import own_loss
 from antinode.errors import InputError
+from antinode.modes.hertz import hertz
 from antinode.modes.result import ModalResult
 from antinode.modes.solve import solve_one
 from antinode.riccati.chain import Chain, count_below, largest_wave_number
@@ -73,7 +74,7 @@ class Basis:
     @property
     def frequency_hz(self) -> Array:
         """Natural frequencies [Hz]; 0 for modes that do not vibrate."""
-        return np.asarray(np.sqrt(np.maximum(self.omega2, 0.0)) / (2 * np.pi))
+        return hertz(np.maximum(self.omega2, 0.0))
 
     @property
     def ratio(self) -> Array:
