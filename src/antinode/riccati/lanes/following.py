@@ -9,13 +9,21 @@ and obeys the equations of `riccati.lanes.bending` as they stand. At a following
 Counts do not hold. A root is known by its place among guesses, and a sample by the sign of D: an
 even number of roots lies below it, or an odd one. How many there are is proven by the chain with
 fixed directions. Let R lie in a gap (a, b) of its eigenvalues lambda_k, all above -t. On the line
-Re lambda = R, and everywhere left of it in the limit, with ``w = (lambda + t)`` for weights,
+Re lambda = R ``|psi_i/Q_j|^2 <= P(psi_i) P(Y_j)``, where P sums over the modes what each adds to a
+receptance, over abs(lambda_k - R). With f the receptance (psi/M or Y/Q) at -t, where every term is
+positive,
 
-    |psi_i/Q_j|^2 <= c^2 (psi/M at i, at -t) (Y/Q at j, at -t),   c = max (x + t)/|x - R|
+    P <= c f,   c = max (x + t)/|x - R|   over x outside the gap,
 
-over x outside the gap, because every term of these sums over modes is positive at -t. Where that
-makes abs(g - 1) < 1 (`riccati.following`), g does not turn about zero: as many eigenvalues lie left
-of the line as with fixed directions. A sign of D tells that the rigid ones lie below the others.
+and where that is too coarse, from two more samples in the gap, at R - h and R + h: all terms of
+their divided difference d are positive too, and at least those of the sum over (lambda_k - R)^2.
+By Cauchy and Schwarz ``P^2 <= f (S d + P)``, S = R + t, so that
+
+    P <= f/2 + sqrt(f^2/4 + S f d).
+
+Where that makes abs(g - 1) < 1 (`riccati.following`), g does not turn about zero: as many
+eigenvalues lie left of the line as with fixed directions. A sign of D tells that the rigid ones lie
+below the others.
 """
 
 # mypy: disable-error-code="no-untyped-def"
@@ -23,6 +31,8 @@ of the line as with fixed directions. A sign of D tells that the rigid ones lie 
 from __future__ import annotations
 
 import math
+
+import numpy as np
 
 from antinode.riccati.reasons import CERTIFIED, NOT_BRACKETED, TABLE_TOO_SMALL
 
@@ -37,6 +47,9 @@ _NEAR = 0.97  # of abs(g - 1) that is less than 1 for certain
 _COUNTS = 3  # lanes that look for a gap
 """Lanes of the proof: three counts in the gap; then at -t the fixed chain's plane, those of a unit
 moment and a unit force at the left, D; and D below the lowest root that is wanted."""
+_INSIDE = 0.33, 0.62
+"""Places of two samples in the gap, in spacings. Lanes: the fixed chain's plane at both, those of a
+unit moment, and those of a unit force at the left."""
 
 
 @compiled
@@ -68,8 +81,8 @@ def find_all(chain, task, warm, reach, roots, table, lanes, search):
         return reason, total
     if not _all_change_sign(roots, search):
         return NOT_BRACKETED, total
-    reason, pieces = _prove(chain, task.below, roots.omega2, reach, table, lanes)
-    return reason, pieces if reason == TABLE_TOO_SMALL else total + LANES
+    reason, more = _prove(chain, task.below, roots.omega2, reach, table, lanes)
+    return reason, more if reason == TABLE_TOO_SMALL else total + more
 
 
 @compiled
@@ -89,16 +102,15 @@ def _all_change_sign(roots, search):
 def _prove(chain, below, root, filled, table, lanes):
     """Tell whether the roots, and so many below them, are all that lie left of a line.
 
-    The table is filled up to `filled`.
+    The table is filled up to `filled`. Also the samples, or the columns that the table needs.
     """
     n = len(root)
     top = root[n - 1]
     if not (root[0] > 0.0 and top > 0.0):
         return NOT_BRACKETED, 0
     spacing = laws.root_spacing(chain)
-    place, t = math.sqrt(math.sqrt(top)), top
-    state = lanes.state
-    kappa, left = chain.following, chain.following[0]
+    place = math.sqrt(math.sqrt(top))
+    state, number = lanes.state, below + n
     reach = (place + spacing) ** 4
     if reach > filled:
         pieces = laws.prepare(chain, reach, table)
@@ -106,43 +118,111 @@ def _prove(chain, below, root, filled, table, lanes):
             return NOT_BRACKETED, 0
         if pieces > table.shape[1]:
             return TABLE_TOO_SMALL, pieces
-    kappa[0] = 0.0
-    laws.start(chain, lanes)
-    kappa[0] = left
+    _start_fixed(chain, lanes)
     for lane in range(_COUNTS):
         state[OMEGA2 + lane] = (place + spacing * (0.12 + 0.38 * lane)) ** 4
     for lane in range(_COUNTS, LANES):
-        state[OMEGA2 + lane] = -t
-    state[A + 4] = 0.0
-    state[B + 4] = 1.0  # Y^M
-    state[A + 5] = 0.0
-    state[D + 5] = 2.0  # twice theta^Q
-    state[E + 6] = state[E + 7] = left
+        state[OMEGA2 + lane] = -top
+    _apply_moment(4, state)
+    _apply_force(5, state)
+    state[E + 6] = state[E + 7] = chain.following[0]
     state[OMEGA2 + 7] = root[0] / 2
     carry_chain(chain, table, lanes)
-    return (CERTIFIED if _is_proven(chain, below + n, below, t, lanes) else NOT_BRACKETED), 0
+    if int(state[COUNT + 3]) != 0 or not _are_below(chain, below, lanes):
+        return NOT_BRACKETED, LANES
+    far = _receptances(3, 4, 5, state)
+    if _has_gap(number, _COUNTS, state) and _nearness(chain, far, _widest(top, state)) < _NEAR:
+        return CERTIFIED, LANES
+    _start_fixed(chain, lanes)
+    for lane in range(LANES):
+        state[OMEGA2 + lane] = (place + spacing * _INSIDE[lane % 2]) ** 4
+    low, high = state[OMEGA2], state[OMEGA2 + 1]
+    for lane in range(2):
+        _apply_moment(2 + lane, state)
+        _apply_force(4 + lane, state)
+    carry_chain(chain, table, lanes)
+    total = (low + high) / 2 + top
+    one, other = _receptances(0, 2, 4, state), _receptances(1, 3, 5, state)
+    factors = (
+        _factor(far[0], (other[0] - one[0]) / (high - low), total),
+        _factor(far[1], (other[1] - one[1]) / (high - low), total),
+        _factor(far[2], (other[2] - one[2]) / (high - low), total),
+        _factor(far[3], (other[3] - one[3]) / (high - low), total),
+    )
+    proven = _has_gap(number, 2, state) and _nearness(chain, far, factors) < _NEAR
+    return (CERTIFIED if proven else NOT_BRACKETED), 2 * LANES
 
 
 @compiled
-def _is_proven(chain, number, below, t, lanes):
-    """Judge the lanes of the proof."""
+def _start_fixed(chain, lanes):
+    """Set what the left end admits with fixed directions."""
+    kappa, left = chain.following, chain.following[0]
+    kappa[0] = 0.0
+    laws.start(chain, lanes)
+    kappa[0] = left
+
+
+@compiled
+def _apply_moment(lane, state):
+    """Set the plane of a free left end to Y^M."""
+    state[A + lane], state[B + lane] = 0.0, 1.0
+
+
+@compiled
+def _apply_force(lane, state):
+    """Set the plane of a free left end to theta^Q."""
+    state[A + lane], state[D + lane] = 0.0, 2.0
+
+
+@compiled
+def _are_below(chain, below, lanes):
+    """Tell whether the rigid eigenvalues lie below the others, by the signs of D."""
     state, kappa = lanes.state, chain.following
     sigma = kappa[0] if laws.keeps_sigma(chain) else 0.0
-    counts_hold = True
-    for lane in range(_COUNTS):
-        counts_hold = counts_hold and int(state[COUNT + lane]) == number
-    counts_hold = counts_hold and int(state[COUNT + 3]) == 0
-    low, middle, high = state[OMEGA2], state[OMEGA2 + 1], state[OMEGA2 + 2]
-    c = max((high + t) / (high - middle), (low + t) / (middle - low))
-    f = abs(state[F + 3])
-    right = abs(kappa[1]) * math.sqrt(2.0 * abs(state[B + 3]) * abs(state[D + 3])) / f
-    shift = state[POWER + 3]
-    turn = shifted(abs(state[F + 4]), state[POWER + 4] - shift) / f
-    move = shifted(abs(state[F + 5]), state[POWER + 5] - shift) / f
-    left = abs(kappa[0]) * math.sqrt(turn * move)
-    one, other = c * left, c * right
-    near = one + other + 2.0 * one * other
-    even = below % 2 == 0
     first = state[F + 6] + kappa[1] * (state[E + 6] - shifted(sigma, -state[POWER + 6]))
     second = state[F + 7] + kappa[1] * (state[E + 7] - shifted(sigma, -state[POWER + 7]))
-    return counts_hold and near < _NEAR and (first * second > 0.0) == even
+    return (first * second > 0.0) == (below % 2 == 0)
+
+
+@compiled
+def _has_gap(number, lanes, state):
+    """Tell whether the first lanes all count one number."""
+    same = True
+    for lane in range(lanes):
+        same = same and int(state[COUNT + lane]) == number
+    return same
+
+
+@compiled
+def _receptances(plane, moment, force, state):
+    """Return psi/M and Y/Q of the left end, then of the right one, each up to its own sign."""
+    f, power = state[F + plane], state[POWER + plane]
+    turn = shifted(state[F + moment], state[POWER + moment] - power) / f
+    move = shifted(state[F + force], state[POWER + force] - power) / f
+    return turn, move, state[D + plane] / f, 2.0 * state[B + plane] / f
+
+
+@compiled
+def _widest(t, state):
+    """Return c, from the gap alone, for every receptance."""
+    low, middle, high = state[OMEGA2], state[OMEGA2 + 1], state[OMEGA2 + 2]
+    c = max((high + t) / (high - middle), (low + t) / (middle - low))
+    return c, c, c, c
+
+
+@compiled
+def _factor(far, difference, total):
+    """Return P/f from the divided difference in the gap."""
+    share = total * difference / far
+    return 0.5 + math.sqrt(0.25 + share) if share >= 0.0 else np.inf
+
+
+@compiled
+def _nearness(chain, far, factors):
+    """Return a bound on abs(g - 1) from receptances at -t, and what P is in their units."""
+    kappa, left, right = chain.following, 0.0, 0.0
+    if kappa[0] != 0.0:
+        left = abs(kappa[0]) * math.sqrt(abs(far[0] * far[1]) * factors[0] * factors[1])
+    if kappa[1] != 0.0:
+        right = abs(kappa[1]) * math.sqrt(abs(far[2] * far[3]) * factors[2] * factors[3])
+    return left + right + 2.0 * left * right
