@@ -1,9 +1,12 @@
 """Shapes and their integrals in compiled code against the readable form."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from antinode.riccati import shapes
+from antinode.riccati.following_roots import Finder
 from antinode.riccati.lanes import calls as compiled
 from antinode.riccati.points import Point
 from antinode.riccati.roots import find_eigenvalues
@@ -111,4 +114,26 @@ def test_supports_and_clusters_are_left_to_the_readable_form():
     single = np.ones(len(omega2), np.int64)
     same_up_to_sign(
         compiled.mode_states(chain, omega2, single), shapes.mode_states(chain, omega2, single)
+    )
+
+
+@pytest.mark.parametrize("adjoint", [False, True])
+@pytest.mark.parametrize("following", [(0.0, 1.0), (2.0, 0.0), (2.0, 3.0)])
+def test_ends_whose_force_follows(following, adjoint):
+    n = 30
+    x = (np.arange(n) + 0.5) / n
+    h, m, EI, N = np.full(n, 1 / n), 1 + 0.5 * x, 1 + 0.3 * np.sin(4 * x), 1 + x
+    fixed = bending_chain(h, m, EI, N, points=(Point(12, mass=0.3, spring=5.0),))
+    chain = replace(fixed, following=following)
+
+    def poles(number):
+        return find_eigenvalues(fixed, number, zeros=0)
+
+    found = Finder(chain, poles, 0, 1e-12).find(9).eigenvalues
+    omega2 = np.array([v.omega2 for v in found])
+    assert not any(v.imaginary for v in found)
+    one = np.ones(len(omega2), np.int64)
+    same_up_to_sign(
+        compiled.mode_states(chain, omega2, one, adjoint=adjoint),
+        shapes.mode_states(chain, omega2, one, adjoint=adjoint),
     )

@@ -28,7 +28,7 @@ from .workspace import (
 )
 
 _f1, _f2, _f3, _f4 = (np.zeros((1,) * dimensions) for dimensions in range(1, 5))
-_i1, _i2 = (np.zeros((1,) * dimensions, np.int64) for dimensions in range(1, 3))
+_i1 = np.zeros(1, np.int64)
 _i, _f, _b = 1, 1.0, True
 
 _chain, _lanes, _search = new_chain(1, 1, 1, 1), Kept(new_lanes()), Kept(new_search(1))
@@ -63,7 +63,7 @@ ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     ),
     "scaled_chain": (shapes.scaled_chain, (_f1, _f1, _f1, _f2, _f1, _f1, _f, _scaled)),
     "transfers": (shapes.transfers, (_f1, _scaled, _f1, _f2, _f3)),
-    "sweeps": (shapes.sweeps, (_f3, _i1, _f3, _i2, _f2, _f3, _f3, _f3, _f3)),
+    "sweeps": (shapes.sweeps, (_f3, _i1, _f3, _f3, _f2, _f3, _f3, _f3, _f3)),
     "meet": (shapes.meet, (_f3, _f3, _f2, _i1, _f2)),
     "carry": (shapes.carry, (_f3, _f3, _f3, _f3, _i1, _f2, _f2, _f3)),
     "squares": (

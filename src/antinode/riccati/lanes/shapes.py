@@ -171,22 +171,22 @@ def _orthonormalise(F, back):
 
 
 @compiled
-def _start(first, second, F):
-    """Set the frame of an end whose free components are two."""
+def _copy(given, F):
+    """Set a frame."""
     for row in range(8):
         for lane in range(LANES):
-            F[row, lane] = 1.0 if row == first or row == 4 + second else 0.0
+            F[row, lane] = given[row, lane]
 
 
 @compiled
-def sweeps(U, marks, points, free, scratch, left, right, back_left, back_right):
+def sweeps(U, marks, points, ends, scratch, left, right, back_left, back_right):
     """Carry the frames of both ends along; those of a node belong to its right side (last: left).
 
-    `free` holds the components that the ends leave free; `points` what the loads add, Q by Y and
+    `ends` holds the frames that they admit, left and right; `points` what the loads add, Q by Y and
     by theta, M by Y and by theta, and the compliance of the joint.
     """
     n, before = len(U), scratch[0:8]
-    _start(free[0, 0], free[0, 1], left[0])
+    _copy(ends[0], left[0])
     if marks[0] >= 0:
         _pass_point(points[marks[0]], 1.0, left[0])
     _orthonormalise(left[0], back_left[0])
@@ -197,14 +197,12 @@ def sweeps(U, marks, points, free, scratch, left, right, back_left, back_right):
         if marks[i + 1] >= 0 and i + 1 < n:
             _pass_point(points[marks[i + 1]], 1.0, F)
         _orthonormalise(F, back_left[i + 1])
-    _start(free[1, 0], free[1, 1], right[n])
+    _copy(ends[1], right[n])
     if marks[n] >= 0:
         _pass_point(points[marks[n]], -1.0, right[n])
     _orthonormalise(right[n], back_right[n])
     for i in range(n - 1, -1, -1):
-        for row in range(8):
-            for lane in range(LANES):
-                before[row, lane] = right[i + 1, row, lane]
+        _copy(right[i + 1], before)
         if marks[i + 1] >= 0 and i + 1 < n:
             _pass_point(points[marks[i + 1]], -1.0, before)
         _step(U[i], -1.0, before, 0, right[i])
@@ -225,7 +223,11 @@ def _product(L, a, R, b, lane):
 
 @compiled
 def meet(left, right, scratch, node, state):
-    """Set, for each lane, the node where the two frames come closest, and the state they share."""
+    """Set, for each lane, the node where the two frames come closest, and the state they share.
+
+    Where the force of the left end follows, `left` is what the adjoint problem admits
+    (`riccati.shapes.match`).
+    """
     least = scratch[0]
     for lane in range(LANES):
         least[lane] = np.inf

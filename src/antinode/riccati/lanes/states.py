@@ -6,7 +6,7 @@ import numpy as np
 
 from antinode.riccati import shapes
 from antinode.riccati.arrays import Array, Integers
-from antinode.riccati.chain import Chain, largest_wave_number, point_steps, state_units
+from antinode.riccati.chain import Chain, end_frame, largest_wave_number, point_steps, state_units
 from antinode.riccati.laws import Squares
 from antinode.riccati.points import Point
 from antinode.riccati.segment import LONGEST_STEP
@@ -26,19 +26,21 @@ def mode_states(
 ) -> Array:
     """Return the states of the modes at every node: `riccati.shapes.mode_states`, compiled.
 
-    Supports between the ends, clusters and longitudinal modes are left to the readable form.
+    Supports between the ends, clusters, modes that flutter and longitudinal ones are left to the
+    readable form.
     """
-    fine = None if _is_special(chain, multiplicity) else shapes.split_for(chain, omega2)
+    special = np.iscomplexobj(omega2) or _is_special(chain, multiplicity)
+    fine = None if special else shapes.split_for(chain, omega2)
     if fine is None or len(fine.length) > _MOST_NODES:
         return shapes.mode_states(chain, omega2, multiplicity, adjoint=adjoint)
     keep = shapes.kept_nodes(chain, fine)
-    parts = [_states(fine, omega2[i : i + LANES]) for i in range(0, len(omega2), LANES)]
+    parts = [_states(fine, omega2[i : i + LANES], adjoint) for i in range(0, len(omega2), LANES)]
     return np.concatenate([part[keep] for part in parts], axis=1)
 
 
 def _is_special(chain: Chain, multiplicity: Integers) -> bool:
     held = any(point.holds or _is_heavy(point, chain) for point in chain.points)
-    return not _is_known(chain) or held or chain.follows or bool(np.any(multiplicity > 1))
+    return not _is_known(chain) or held or bool(np.any(multiplicity > 1))
 
 
 def _is_heavy(point: Point, chain: Chain) -> bool:
@@ -75,21 +77,30 @@ class _LaneChain:
         return U
 
 
-def _states(fine: Chain, omega2: Array) -> Array:
+def _states(fine: Chain, omega2: Array, adjoint: bool) -> Array:
     own = _LaneChain(fine, omega2)
-    n, number = len(fine.length), len(omega2)
-    frames, backs = np.empty((2, n + 1, 8, LANES)), np.empty((2, n + 1, 3, LANES))
-    free = [i for end in (fine.left, fine.right) for i in range(4) if i not in fine.law.zeros(end)]
-    library().call(
-        "sweeps",
-        *(own.transfers(), *_lane_points(fine, omega2, own.units)),
-        *(np.array(free).reshape(2, 2), own.scratch, *frames, *backs),
-    )
+    n, number, U = len(fine.length), len(omega2), own.transfers()
+    points = _lane_points(fine, omega2, own.units)
+
+    def sweeps(adjoint: bool) -> tuple[Array, Array]:
+        frames, backs = np.empty((2, n + 1, 8, LANES)), np.empty((2, n + 1, 3, LANES))
+        ends = _end_frames(fine, own.units, adjoint)
+        library().call("sweeps", U, *points, ends, own.scratch, *frames, *backs)
+        return frames, backs
+
+    frames, backs = sweeps(adjoint)
+    across = sweeps(not adjoint)[0][0] if fine.following[0] else frames[0]
     node, state = np.zeros(LANES, np.int64), np.empty((4, LANES))
-    library().call("meet", *frames, own.scratch, node, state)
+    library().call("meet", across, frames[1], own.scratch, node, state)
     z = np.empty((n + 1, number, 4))
     library().call("carry", *frames, *backs, node, state, own.units, z)
     return z
+
+
+def _end_frames(chain: Chain, units: Array, adjoint: bool) -> Array:
+    """Return the frames that both ends admit, columns one after the other, (2, 8, lanes)."""
+    F = np.stack([end_frame(chain, side, units, adjoint=adjoint) for side in (0, -1)])
+    return np.ascontiguousarray(F.transpose(0, 3, 2, 1).reshape(2, 8, -1), dtype=float)
 
 
 def _lane_points(chain: Chain, omega2: Array, units: Array) -> tuple[Integers, Array]:
