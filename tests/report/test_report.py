@@ -130,6 +130,17 @@ def test_sensitivities_of_a_beam_add_up(folder):
     np.testing.assert_allclose(mass, -0.5 + found["axial force N"], atol=1e-4)
 
 
+def test_forces_that_turn_have_no_factor_of_buckling(folder):
+    case = folder / "starter" / "case.toml"
+    effect = []
+    for end_force in ("fixed_direction", "follows_body"):
+        document, _ = make_report(case, [f"model.end_force={end_force}"])
+        first = section(document, "Effect of the axial force").blocks[0]
+        effect.append("".join(run.text for run in first.runs))
+    assert "times this axial force" in effect[0]
+    assert "No load factor" in effect[1]
+
+
 def test_html_is_one_file_that_loads_nothing(folder):
     for name in ("starter/case.toml", "tower/beam.toml"):
         page = to_html(make_report(folder / name)[0])
@@ -149,7 +160,7 @@ def test_a_study_with_tracked_frequencies_and_one_with_indices(folder):
     assert [text.partition(":")[0] for text in told] == [
         "some modes",
     ]
-    assert told[1].endswith("(every case)")
+    assert told[0].endswith("(every case)")
     ranges = next(b for b in blocks if isinstance(b, Table) and "Ranges" in b.caption[0].text)
     assert all(row[-1].endswith(" %") and row[-2] for row in texts(ranges))
     document, _ = make_report(folder / "sweep" / "samples.toml", ("design.number=16",), 1)

@@ -9,7 +9,6 @@ import numpy as np
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.file import BeamFile
-from antinode.modes.buckling import buckling_of
 from antinode.modes.result import ModalResult
 from antinode.show.figures import plot_beam
 from antinode.study.sensitivity.influence import beam_influences
@@ -38,7 +37,7 @@ def beam_report(file: BeamFile, result: ModalResult, source: Source, command: st
         *beam_inputs(file, beam),
         Section("Beam and axial force", tuple(_axial_force(beam))),
         frequency_section(result),
-        axial_section(result, None if beam.is_unloaded else buckling_of(result)),
+        axial_section(result),
         shapes_section(result, "the left end"),
         influence_section(moved),
         warnings_section(result.warnings),

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from antinode.beam.families import BENDING
-from antinode.modes.buckling import Buckling
+from antinode.modes.buckling import buckling_of
 from antinode.modes.hertz import hertz
 from antinode.modes.result import ModalResult, Mode
 from antinode.show.style import pyplot, styled
@@ -94,7 +94,7 @@ def _frequency(mode: Mode) -> str:
     return number(mode.frequency_hz, digits)
 
 
-def axial_section(result: ModalResult, buckles: Buckling | None) -> Section:
+def axial_section(result: ModalResult) -> Section:
     """Return what the axial force does to each mode, and how far it is from buckling."""
     rows = [
         (
@@ -107,15 +107,21 @@ def axial_section(result: ModalResult, buckles: Buckling | None) -> Section:
         if mode.number and mode.unloaded_omega2 is not None
     ]
     head = ("mode", "without N [Hz]", "with N [Hz]", "change")
-    blocks: list[Block] = [paragraph(_buckling_words(result, buckles))]
+    blocks: list[Block] = [paragraph(_buckling_words(result))]
     if rows:
         blocks.append(table("Bending modes without and with the axial force.", head, rows))
     return Section("Effect of the axial force", tuple(blocks))
 
 
-def _buckling_words(result: ModalResult, buckles: Buckling | None) -> str:
+def _buckling_words(result: ModalResult) -> str:
     if result.beam.is_unloaded:
         return "There is no axial force."
+    if any(result.beam.following()):
+        return (
+            "The force of an end turns with it. No load factor of buckling is given: it belongs to "
+            "forces of fixed direction, and a beam under forces that turn may flutter first."
+        )
+    buckles = buckling_of(result)
     words = "Compression lowers bending frequencies, tension raises them; the others keep theirs. "
     if buckles is None:
         return words + "No factor on this axial force buckles the beam."

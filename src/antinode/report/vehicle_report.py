@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from antinode.modes.buckling import buckling_of
 from antinode.modes.result import ModalResult
 from antinode.show.figures import case_title, plot_loads, plot_shapes
 from antinode.study.sensitivity.influence import case_influences
@@ -37,7 +36,7 @@ def vehicle_report(case: Case, result: ModalResult, source: Source, command: str
         *case_inputs(case),
         *load_sections(case, _loads_figure(case)),
         frequency_section(result),
-        axial_section(result, buckling_of(result)),
+        axial_section(result),
         shapes_section(result, "the nose"),
         influence_section(case_influences(case, result, _MOST_DRAWN)),
         warnings_section(told),
