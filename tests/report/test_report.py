@@ -136,7 +136,7 @@ def test_forces_that_turn_have_no_factor_of_buckling(folder):
     for end_force in ("fixed_direction", "follows_body"):
         document, _ = make_report(case, [f"model.end_force={end_force}"])
         first = section(document, "Effect of the axial force").blocks[0]
-        effect.append("".join(run.text for run in first.runs))
+        effect.append("".join(run.text for run in first.text))
     assert "times this axial force" in effect[0]
     assert "No load factor" in effect[1]
 
