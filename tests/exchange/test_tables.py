@@ -53,9 +53,12 @@ def test_a_workbook_gives_the_beam_back(name, tmp_path):
 @pytest.mark.parametrize("name", ["starter", "beam", "rocket"])
 def test_csv_gives_the_stations_back(name, tmp_path):
     path = tmp_path / "stations.csv"
-    write_beam(path, beam_of(name), "csv")
+    notes = write_beam(path, beam_of(name), "csv")
     ends = beam_of(name).ends
-    sets = (f"beam.ends.left={ends.left}", f"beam.ends.right={ends.right}")
+    turning = f"left_follower = {ends.left_follower:g}, right_follower = {ends.right_follower:g}"
+    assert any(turning in note for note in notes) == (name == "starter")
+    keys = ("left", "right", "left_follower", "right_follower")
+    sets = tuple(f"beam.ends.{key}={getattr(ends, key)}" for key in keys)
     beam = read_beam(path, "csv", Choices(sets)).beam
     again = replace(beam, attachments=())
     if not beam_of(name).attachments:

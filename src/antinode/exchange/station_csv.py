@@ -40,4 +40,7 @@ def left_out(beam: Beam) -> tuple[str, ...]:
     if (beam.ends.left, beam.ends.right) != ("free", "free"):
         ends = f"{beam.ends.left} - {beam.ends.right}"
         notes.append(f"the ends, {ends}, are left out; write a .toml or .xlsx to keep them")
+    if any(beam.following()):
+        ends = f"{beam.ends.left_follower:g}, right_follower = {beam.ends.right_follower:g}"
+        notes.append(f"left_follower = {ends} are left out; write a .toml or .xlsx to keep them")
     return tuple(notes)
