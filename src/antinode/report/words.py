@@ -95,8 +95,9 @@ _OF_A_BEAM = (
     "Ends and attachments are ideal: masses are rigid, springs and joints linear, supports rigid.",
 )
 _ALWAYS = (
-    "N is static, and the only load that changes the frequencies. What makes it keeps its direction "
-    "when the beam bends; only the force at a free end may turn with the end, as the inputs say.",
+    "N is static, and the only load that changes the frequencies. What makes it keeps its "
+    "direction when the beam bends; only the force at a free end may turn with the end, as the "
+    "inputs say.",
     "Displacements are small and the material is linear elastic.",
 )
 _ERROR = (
