@@ -27,6 +27,10 @@ from antinode.vehicle.derivatives import hats
 from cli_run import run
 
 
+FIXED = an.Model(end_force="fixed_direction")
+"""A thrust that turned with the body would tell itself from a drag that does not."""
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     path = tmp_path_factory.mktemp("starter")
@@ -267,6 +271,7 @@ def test_an_interruption_keeps_the_best_so_far(case, monkeypatch):
 
 def test_a_trade_off_is_named(case):
     """Thrust and a drag at the tail cancel in N: the data cannot tell them apart."""
+    case = case.model_copy(update={"model": FIXED})
     parameters = [
         {"key": "thrust", "prior": {"sd": "5 kN"}},
         {"key": "extra_drag", "start": "0 kN", "name": "tail drag", "prior": {"sd": "5 kN"}},
@@ -274,6 +279,7 @@ def test_a_trade_off_is_named(case):
     at_tail = an.Case(
         vehicle=case.vehicle,
         condition=case.condition.model_copy(update={"extra_drag_position": case.vehicle.length}),
+        model=FIXED,
     )
     rows = [{"bending": bending(case, 0.02)}]
     result = an.identify(
@@ -290,6 +296,7 @@ def test_a_trade_off_is_named(case):
 
 
 def test_without_a_prior_what_is_open_has_no_interval(case):
+    case = case.model_copy(update={"model": FIXED})
     parameters = [
         {"key": "thrust"},
         {"key": "extra_drag", "start": "0 kN"},
@@ -297,6 +304,7 @@ def test_without_a_prior_what_is_open_has_no_interval(case):
     at_tail = an.Case(
         vehicle=case.vehicle,
         condition=case.condition.model_copy(update={"extra_drag_position": case.vehicle.length}),
+        model=FIXED,
     )
     result = an.identify(
         an.IdentificationProblem(

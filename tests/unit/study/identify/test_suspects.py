@@ -21,7 +21,7 @@ NOZZLE = {"key": "thrust", "prior": {"sd": "5 kN"}}
 def case(tmp_path_factory):
     path = tmp_path_factory.mktemp("starter")
     run("init", path)
-    return an.load_case(path / "case.toml")
+    return an.load_case(path / "case.toml", ["model.end_force=fixed_direction"])
 
 
 @pytest.fixture(scope="module")
