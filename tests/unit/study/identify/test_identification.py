@@ -26,7 +26,6 @@ from antinode.vehicle.columns import interpolation_matrix
 from antinode.vehicle.derivatives import hats
 from cli_run import run
 
-
 FIXED = an.Model(end_force="fixed_direction")
 """A thrust that turned with the body would tell itself from a drag that does not."""
 
