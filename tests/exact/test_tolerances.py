@@ -65,8 +65,8 @@ def _midpoint_chain(beam, steps):
     k, t = np.repeat(np.arange(n), steps), np.tile((np.arange(steps) + 0.5) / steps, n)
     return bending_chain(
         length=np.diff(beam.x)[k] / steps,
-        mass=beam.at(beam.mass_per_length, k, t),
-        stiffness=beam.at(beam.bending_stiffness, k, t),
+        mass=beam.column_at("mass_per_length", k, t),
+        stiffness=beam.column_at("bending_stiffness", k, t),
         force=beam.axial_force_at(k, t),
         left=beam.ends.left,
         right=beam.ends.right,

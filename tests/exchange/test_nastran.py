@@ -104,7 +104,8 @@ def test_a_deck_gives_the_beam_back(name, analysis, tmp_path):
     assert system.words in notes[0]
     in_plane = ["bending", "longitudinal"]
     again = solve_modes(beam, 3, tolerance=1e-7, families=in_plane)
-    weight = replace(result.beam, offset_weight=False)
+    ends = replace(result.beam.ends, left_follower=0.0, right_follower=0.0)  # as a deck has them
+    weight = replace(result.beam, offset_weight=False, ends=ends)
     weight = weight.without_axial_force() if analysis == "unloaded" else weight
     wanted = solve_modes(weight, 3, tolerance=1e-7, families=in_plane)
     scale = wanted.mode("bending", 1).omega2
