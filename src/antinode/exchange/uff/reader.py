@@ -179,6 +179,9 @@ def _mode_rows(
         if not hz > 0:
             left["without frequency (rigid)"] += 1
             continue
+        if str(data.get("id2", "")).startswith("rigid,"):  # as antinode writes it
+            left["of a rigid body"] += 1
+            continue
         family, nodes, shape = _shape(data, geometry)
         if family:
             found.setdefault(family, []).append((hz, _shape_row(family, nodes, shape, geometry)))
