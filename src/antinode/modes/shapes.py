@@ -244,4 +244,7 @@ def estimate_model_errors(
     parts = ModelErrorParts(*(part.sum(axis=0) for part in by_segment))
     if beam.is_timoshenko:
         parts = parts._replace(rotary=0 * parts.rotary)
-    return [None if np.isnan(e) else e for e in parts.effect(omega2).tolist()]
+    effect = parts.effect(omega2)
+    if np.iscomplexobj(effect):  # a mode that flutters: not of first order in one frequency
+        effect = np.where(effect.imag == 0.0, effect.real, np.nan)
+    return [None if np.isnan(e) else e for e in effect.tolist()]

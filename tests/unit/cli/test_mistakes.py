@@ -61,6 +61,9 @@ IN_BEAM_FILES = [
     ("gravity = -9.81", "gravity = -9.81\nacceleration = '1 g'", "'g' is no unit of m/s^2"),
 ]
 IN_TABLES = [
+    ("x [m]", "x [kg]", "'kg' is no unit of m"),
+    ("2,8,3e4", "2,-8,3e4", "mass_per_length"),
+    ("bending_stiffness [N m^2]", "bending_stiffness [N m]", "'N m' is no unit of N m^2"),
     ("x [m]", "x m", "brackets: x [m]"),
     ("x [m]", "x [m", "not closed"),
     ("kg/m", "kg", "'kg' is no unit of kg/m"),
