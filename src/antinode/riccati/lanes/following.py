@@ -13,7 +13,7 @@ Re lambda = R ``|psi_i/Q_j|^2 <= P(psi_i) P(Y_j)``, where P sums over the modes 
 receptance, over abs(lambda_k - R). With f the receptance (psi/M or Y/Q) at -t, where every term is
 positive,
 
-    P <= c f,   c = max (x + t)/|x - R|   over x outside the gap,
+    P <= c f,   c = max (x + t)/abs(x - R)   over x outside the gap,
 
 and where that is too coarse, from two more samples in the gap, at R - h and R + h: all terms of
 their divided difference d are positive too, and at least those of the sum over (lambda_k - R)^2.
