@@ -15,6 +15,8 @@ from .file import Problem, load_response
 from .quantities import Drive
 
 if TYPE_CHECKING:
+    from antinode.modes.result import Mode
+
     from .harmonic import HarmonicResult
     from .random import RandomResult
     from .shock import ShockResult
@@ -45,31 +47,35 @@ def solve_response(problem: Problem | str | Path) -> Result:
     """
     own = problem if isinstance(problem, Problem) else load_response(problem)
     growing = unstable(own.beam, own.file.drives)
-    if growing and own.file.equipment:
+    names = ", ".join(f"{m.name} grows at {m.growth_rate_per_s:.4g} /s" for m in growing[:3])
+    if own.file.equipment and any(mode.number for mode in growing):  # not the attitude alone
         raise ComputationError(
-            f"{own.title}: {growing}; no verdict on equipment can be given: lower the axial force, "
-            "or leave [[equipment]] out to see the forced part alone"
+            f"{own.title}: the body is not stable under its axial force ({names}); no verdict on "
+            "equipment can be given: lower the force, or leave [[equipment]] out to see the "
+            "forced part alone"
         )
     result = _solved(own)
     if growing:
-        told = f"{growing}: what is shown is the forced part alone, which never comes by itself"
+        told = (
+            f"the body is not stable under its axial force ({names}): what is shown is the forced "
+            "part alone, which never comes by itself"
+        )
         result = replace(result, warnings=(told, *result.warnings))
     return result
 
 
-def unstable(beam: Beam, drives: tuple[Drive, ...]) -> str:
-    """Return which modes of a driven family grow by themselves, without dampers; empty if none."""
+def unstable(beam: Beam, drives: tuple[Drive, ...]) -> list[Mode]:
+    """Return the modes of the driven families that grow by themselves; dampers do not count."""
     from antinode.modes.solve import solve_one
 
     if not np.any(beam.axial_force) and not beam.axial_acceleration:
-        return ""
-    found = [
-        f"{mode.name} grows at {mode.growth_rate_per_s:.4g} /s"
+        return []
+    return [
+        mode
         for family in dict.fromkeys(drive.family for drive in drives)
         for mode in solve_one(beam, 3, families=[family]).family(family)
         if mode.kind in ("divergent", "flutter")
     ]
-    return f"the body is not stable under its axial force ({', '.join(found[:3])})" if found else ""
 
 
 def _solved(own: Problem) -> Result:

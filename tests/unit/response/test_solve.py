@@ -59,3 +59,12 @@ def test_no_verdict_on_what_grows(tmp_path):
     ended = asked(tmp_path, 25.0, 0.0, "harmonic", EQUIPMENT)
     assert ended.code == 1
     assert "no verdict on equipment" in ended.err
+
+
+def test_the_attitude_of_a_free_body_is_said_and_leaves_the_verdict(tmp_path):
+    asked(tmp_path, 2.0, 0.0, "harmonic", EQUIPMENT)
+    beam = (tmp_path / "beam.toml").read_text().replace('"clamped"', '"free"')
+    (tmp_path / "beam.toml").write_text(beam)
+    ended = run("response", tmp_path / "response.toml")
+    assert ended.code == 0
+    assert "rigid rotation grows at" in " ".join(ended.out.split())

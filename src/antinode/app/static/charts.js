@@ -76,8 +76,8 @@ export function forces(element) {
   const names = (data) => data.curves.map((c) => `${c.name}  ${c.title}`);
   const layout = (data) => {
     const count = data.curves.length;
-    const room = (element.clientHeight - 42) / count;
-    return data.curves.map((_, k) => ({ left: 58, right: 12, top: 20 + k * room, height: Math.max(20, room - 24) }));
+    const room = (element.clientHeight - 50) / count;
+    return data.curves.map((_, k) => ({ left: 58, right: 12, top: 28 + k * room, height: Math.max(20, room - 28) }));
   };
   const series = (data, t) =>
     data.curves.map((c, k) => ({
@@ -94,7 +94,7 @@ export function forces(element) {
     title: names(data).map((text, k) => ({
       text,
       left: 58,
-      top: layout(data)[k].top - 18,
+      top: layout(data)[k].top - 20,
       textStyle: { color: t.muted, fontSize: 11, fontWeight: 400, fontFamily: FONT },
       padding: 0,
     })),
@@ -118,7 +118,7 @@ export function forces(element) {
     graphic: data.curves.map((c, k) => ({
       type: "text",
       right: 12,
-      top: layout(data)[k].top - 17,
+      top: layout(data)[k].top - 19,
       style: { text: `[${c.unit}]`, fill: t.muted, font: `11px ${FONT}` },
     })),
     axisPointer: { link: [{ xAxisIndex: "all" }] },
