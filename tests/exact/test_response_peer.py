@@ -11,8 +11,9 @@ from antinode.response.modal import basis
 from antinode.response.transient import respond
 from forced_beam import HpResponse
 
-ode = pytest.importorskip("pyyeti.ode")
-peer_srs = pytest.importorskip("pyyeti.srs")
+with np.printoptions():  # pyYeti sets how every array of the process prints
+    ode = pytest.importorskip("pyyeti.ode")
+    peer_srs = pytest.importorskip("pyyeti.srs")
 
 
 @pytest.mark.parametrize("index", range(0, 30, 3))
