@@ -166,9 +166,25 @@ def _fin_place(cases: ManyCases, k: int, refusals: Refusals) -> tuple[Array, Arr
 
 
 def _fin_set(cases: ManyCases, k: int, hole: Cavity, refusals: Refusals) -> FinLoads:
+    x, R = _fin_place(cases, k, refusals)
+    return fin_loads(cases, k, hole, x, R)
+
+
+def fin_loads(cases: ManyCases, k: int, hole: Cavity, x: Array, R: Array) -> FinLoads:
+    """Work out the forces of a set of fins, eq. 14 and 15.
+
+    Parameters
+    ----------
+    cases : ManyCases
+    k : int
+        Which set.
+    hole : Cavity
+        The cavity of every case.
+    x, R : array (cases,)
+        Where the fins stand, and the body's radius there [m].
+    """
     model, phi = cases.model, np.array(cases.vehicle.fins[k].roll_angles)[:, None]
     rho, V = cases.number("water", "density"), cases.number("condition", "speed")
-    x, R = _fin_place(cases, k, refusals)
     tip = cases.number("vehicle", "fins", k, "tip_radius")
     radial = model.fin_immersion == "radial"
     immersion = fins.radial_immersion if radial else fins.tip_immersion

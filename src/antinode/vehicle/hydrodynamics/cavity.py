@@ -13,9 +13,9 @@ that makes it one is a model option.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -129,9 +129,6 @@ def distortion(x_bar: Any, sigma: Any, alpha: Any, R_n: Any) -> Any:
     return drag_coefficient(sigma) * alpha * R_n * (0.46 - sigma + x_bar)
 
 
-_NUMBERS = ("D_n", "sigma", "theta", "alpha", "D_c", "L_c", "Fr_L")
-
-
 @dataclass(frozen=True)
 class Cavity:
     """A cavity and the course of its axis against the body's; or those of many conditions.
@@ -158,6 +155,8 @@ class Cavity:
         The choices.
     """
 
+    _varying: ClassVar[tuple[str, ...]] = ("D_n", "sigma", "theta", "alpha", "D_c", "L_c", "Fr_L")
+
     D_n: Any
     sigma: Any
     theta: Any
@@ -170,12 +169,28 @@ class Cavity:
 
     def take(self, rows: Any) -> Cavity:
         """Return the cavities of some cases."""
-        return replace(self, **{name: getattr(self, name)[rows] for name in _NUMBERS})
+        return replace(self, **{name: getattr(self, name)[rows] for name in self._varying})
 
     def of(self, case: int) -> Cavity:
         """Return the cavity of one case, its numbers as floats."""
-        numbers: dict[str, Any] = {name: float(getattr(self, name)[case]) for name in _NUMBERS}
+        numbers: dict[str, Any] = {name: float(getattr(self, name)[case]) for name in self._varying}
         return replace(self, **numbers)
+
+    def seen_from(self, x: Any, deflection: Any, slope: Any) -> MovedCavity:
+        """Return this cavity as a place on the body sees it that has moved, with what is near it.
+
+        Parameters
+        ----------
+        x : float or array
+            The place [m].
+        deflection : float or array
+            How far it has moved up [m].
+        slope : float or array
+            By how much the body's axis turned there, dY/dx: nose-down positive [rad].
+        """
+        numbers: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(Cavity)}
+        numbers["theta"] = self.theta - slope
+        return MovedCavity(**numbers, raised=slope * x - deflection)
 
     def radius(self, x: ArrayLike) -> Any:
         """Return the cavity's radius R_c at `x` by eq. 9 [m]; 0 behind the closure."""
@@ -256,6 +271,25 @@ class Cavity:
             slope = (x_bar / 3 - 1 / 3 + 2 / 3 / (2 - x_bar)) / (2 * self.Fr_L**2)
             slope = np.where(x_bar < self._last_station, slope, 0.0)
         return self._rise_scale * slope * 2 / self.L_c
+
+
+@dataclass(frozen=True)
+class MovedCavity(Cavity):
+    """A cavity seen from a place on a body that has moved a little: `Cavity.seen_from` makes it.
+
+    Parameters
+    ----------
+    raised : float or array
+        How far the cavity's axis lies above where its equations put it [m].
+    """
+
+    _varying: ClassVar[tuple[str, ...]] = (*Cavity._varying, "raised")
+
+    raised: Any = 0.0
+
+    def axis_offset(self, x: ArrayLike) -> Any:
+        """Return cavity axis minus body axis at `x`, up positive [m]."""
+        return super().axis_offset(x) + self.raised
 
 
 def form_cavity(
