@@ -100,7 +100,7 @@ def _without_effect(request: Request, how_in: Format, how_out: Format) -> Iterat
     return (f"{name} has no effect here: it is {why}" for name, inert, why in told if inert)
 
 
-_PLANES = ("nastran", "sections", "uff")
+_PLANES = ("nastran", "sections", "bmodes", "uff")
 _UNITLESS = ("nastran", "uff")
 _NO_UNITS = "for NASTRAN and CalculiX decks, and measurements; all other files are in SI, or say it"
 
@@ -136,8 +136,8 @@ def _check(request: Request, how_in: Format, how_out: Format) -> None:
             f"{request.source}: measurements become observations, as {', '.join(_ROWS)}; they "
             f"cannot be written as {how_out}: name another file"
         )
-    if how_out == "sections":
-        raise InputError("--to sections cannot be written; choose toml, csv or xlsx")
+    if how_out in ("sections", "bmodes"):
+        raise InputError(f"--to {how_out} cannot be written; choose toml, csv or xlsx")
     if os.path.realpath(request.source) == os.path.realpath(request.target):
         raise InputError(f"{request.target} is the input; name another file for the output")
     check_output(request.target, [request.target.suffix.lower()])

@@ -21,6 +21,7 @@ Format = Literal[
     "uff",
     "vtk",
     "sections",
+    "bmodes",
 ]
 
 INPUTS: dict[str, Format] = {
@@ -31,6 +32,7 @@ INPUTS: dict[str, Format] = {
     ".nas": "nastran",
     ".fem": "nastran",
     ".dat": "sections",
+    ".bmi": "bmodes",
     ".uff": "uff",
     ".unv": "uff",
 }

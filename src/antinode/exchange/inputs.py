@@ -111,6 +111,7 @@ def read_beam(path: Path, how: Format, choices: Choices) -> Found:
         "xlsx": _from_workbook,
         "nastran": _from_nastran,
         "sections": _from_sections,
+        "bmodes": _from_bmodes,
     }
     if how not in readers:
         raise InputError(f"{path}: a beam cannot be read from the format {how}; give another file")
@@ -181,4 +182,11 @@ def _from_sections(path: Path, choices: Choices) -> Found:
     from .sections import read_sections
 
     table, notes = read_sections(path, choices.plane, choices.length)
+    return _from_tables({"beam": table}, str(path), choices.assignments, notes)
+
+
+def _from_bmodes(path: Path, choices: Choices) -> Found:
+    from .bmodes import read_main_file
+
+    table, notes = read_main_file(path, choices.plane)
     return _from_tables({"beam": table}, str(path), choices.assignments, notes)

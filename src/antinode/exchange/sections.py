@@ -104,7 +104,7 @@ UNITS = {"mass": "kg/m", "stiffness": "N m^2", "axial": "N", "inertia": "kg m"}
 
 
 def read_sections(
-    path: Path, plane: int, length: float | None
+    path: Path, plane: int, length: float | None, factors: Mapping[str, float] | None = None
 ) -> tuple[dict[str, Any], tuple[str, ...]]:
     """Read a table of sections.
 
@@ -115,6 +115,8 @@ def read_sections(
         Flap or fore-aft, or edge or side-side.
     length : float or None
         [m], of which the sections stand at fractions.
+    factors : dict, optional
+        By which columns are multiplied, beside those of the file.
 
     Returns
     -------
@@ -140,6 +142,8 @@ def read_sections(
         )
     for name, key in (kind.factors or {}).items():
         columns[name] = columns[name] * _above(lines[:head], key, 1.0, path)
+    for name in (factors or {}).keys() & columns.keys():
+        columns[name] = columns[name] * (factors or {})[name]
     stations = {
         "x": (columns[kind.x] * length).tolist(),
         "mass_per_length": columns[kind.mass].tolist(),

@@ -23,7 +23,8 @@ def convert(
     """Convert a beam, or measurements, from one file format to another.
 
     The endings say which. Read are .toml, .csv, .xlsx, NASTRAN's .bdf, .nas and .fem, tables of
-    sections of BModes and ElastoDyn in .dat, and measurements in .uff and .unv. Written are the
+    sections of BModes and ElastoDyn in .dat, main files of BModes in .bmi, and measurements in .uff
+    and .unv. Written are the
     beam as .toml, .csv or .xlsx, its modes as .json, .nc, .mat, .uff or .vtu, decks for solvers as
     .bdf (NASTRAN) and .inp (CalculiX), and measurements as observations for **antinode identify**
     in .toml, .csv or .json.
