@@ -16,7 +16,7 @@ from antinode.arrays import Array, Integers
 from antinode.errors import InputError
 
 from . import curves
-from .attachments import Spring, on_beam
+from .attachments import Joint, Spring, on_beam
 from .beam import Beam
 from .families import LONGITUDINAL
 
@@ -156,7 +156,7 @@ def _flexibility(beam: Beam, forces: Array, body: float) -> tuple[Array, Array]:
     bare = np.cumsum(forces)[:-1]
     compliance = h / beam.column_at("axial_stiffness", k[:, None], at)
     carried = body * beam.mass_left_of(k[:, None], at) + bare[k, None]
-    joints = beam.axial_joint_compliance[:-1]
+    joints = _joint_compliance(beam)[:-1]
     flexibility = np.bincount(k, np.sum(compliance, axis=1)) + joints
     drop = np.bincount(k, np.sum(compliance * carried, axis=1))
     return flexibility, drop + joints * (bare + body * beam.mass_left[:-1])
@@ -197,3 +197,12 @@ def _halved_pieces(EA: Array) -> tuple[Integers, Array, Array]:
         size = np.repeat(size / pieces, pieces)
         second = np.append(False, (k[1:] == k[:-1]) & (start[1:] == start[:-1]))
         start = start + second * size
+
+
+def _joint_compliance(beam: Beam) -> Array:
+    """Return the axial compliance of the joints at every breakpoint [m/N], shape (n + 1,)."""
+    compliance = np.zeros(len(beam.x))
+    for item in beam.attachments:
+        if isinstance(item, Joint):
+            compliance[int(np.argmin(np.abs(beam.x - item.x)))] += item.axial
+    return compliance

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from antinode.arguments import ByValue, numbers, owned
+from antinode.arguments import ByValue, owned
 from antinode.arrays import Array, Integers, Interpolation, distinct
 from antinode.errors import InputError
 from antinode.riccati.chain import Chain
@@ -37,22 +37,14 @@ from .attachments import (
     on_beam,
     springs_hold,
 )
-from .checks import (
-    LOGARITHMIC,
-    TABLES,
-    ShearForm,
-    Theory,
-    check,
-    check_stations,
-    column_of_rows,
-    given,
-)
+from .checks import LOGARITHMIC, TABLES, ShearForm, Theory, check, given
 from .ends import FREE, Ends
 from .families import BENDING, FAMILIES, FamilyName, tells
 from .mass import moments_of_part, shifted
-from .profile import breakpoints, interpolated, interval_ends, kept_intervals
+from .profile import interpolated
 from .representation import make_chain
 from .reversal import reversed_beam
+from .stations import as_column, tables_at_stations, tables_of
 
 if TYPE_CHECKING:
     from .rotation import Rotation
@@ -65,11 +57,14 @@ class Beam(ByValue):
 
     Parameters
     ----------
-    x : array, shape (n + 1,)
-        Breakpoints from left to right [m].
-    mass_per_length, bending_stiffness : array, shape (n, 2)
-        m [kg/m] and EI [N m^2] at the left and right end of every interval, positive. These and all
-        other tables may also have the shape (n, p + 1): control values of polynomials.
+    x : array_like, shape (n + 1,)
+        Stations from left to right [m]; they are the breakpoints. Two rows at one x are a jump.
+    mass_per_length, bending_stiffness : array_like
+        m [kg/m] and EI [N m^2], positive. One number for the whole beam; one for each station,
+        shape (n + 1,); with "step" also one for each interval, (n,); or a table of the intervals:
+        values at their left and right ends, (n, 2), or control values of polynomials, (n, p + 1).
+        All other columns likewise. Texts carry their units, ``["3 kg/m", "2.5 kg/m"]``, as do
+        columns of pandas and xarray (``attrs["units"]``) and quantities of pint.
     axial_stiffness : array, shape (n, 2), optional
         EA [N]; without it there are no longitudinal modes.
     axial_force : array, shape (n, 2), optional
@@ -122,12 +117,14 @@ class Beam(ByValue):
     Raises
     ------
     InputError
-        If shapes disagree, breakpoints do not increase, a property is not positive and finite, an
-        attachment is not at a breakpoint, a value is masked, or a word is not one of those allowed.
+        If shapes disagree, stations do not increase, the last row of a stepped column would be
+        lost, a property is not positive and finite, an attachment is not at a breakpoint, a value
+        is masked, a text is no number of that unit, or a word is not one of those allowed.
 
     Notes
     -----
-    Immutable: it owns its arrays, compares by value, and has a hash.
+    Immutable: it owns its arrays, compares by value, and has a hash. However a column was given,
+    the beam keeps it as a table of the intervals, (n, 2) or (n, p + 1).
     """
 
     x: Array
@@ -155,14 +152,44 @@ class Beam(ByValue):
     drawing: Drawing | None = None
     rotation: Rotation | None = None
 
+    if TYPE_CHECKING:  # what the fields are made of
+
+        def __init__(
+            self,
+            x: npt.ArrayLike,
+            mass_per_length: npt.ArrayLike,
+            bending_stiffness: npt.ArrayLike,
+            axial_stiffness: npt.ArrayLike | None = None,
+            axial_force: npt.ArrayLike = (),
+            axial_acceleration: float = 0.0,
+            interpolation: Interpolation = "step",
+            ends: Ends = FREE,
+            radius_of_gyration: npt.ArrayLike | None = None,
+            torsional_stiffness: npt.ArrayLike | None = None,
+            polar_inertia_per_length: npt.ArrayLike | None = None,
+            shear_stiffness: npt.ArrayLike | None = None,
+            rotary_inertia_per_length: npt.ArrayLike | None = None,
+            foundation_stiffness: npt.ArrayLike | None = None,
+            added_mass_per_length: npt.ArrayLike | None = None,
+            loss_factor: npt.ArrayLike | None = None,
+            theory: Theory | None = None,
+            shear_form: ShearForm = "haringx",
+            attachments: Sequence[Attachment] = (),
+            offset_weight: bool = True,
+            end_force: tuple[float, float] | None = None,
+            name: str = "beam",
+            drawing: Drawing | None = None,
+            rotation: Rotation | None = None,
+        ) -> None: ...
+
     def __post_init__(self) -> None:
-        object.__setattr__(self, "x", owned("x", self.x))
+        columns = {n: v for n in TABLES if (v := getattr(self, n)) is not None}
         if not np.size(self.axial_force):
-            object.__setattr__(self, "axial_force", np.zeros((max(len(self.x) - 1, 0), 2)))
-        for name in TABLES:
-            values = getattr(self, name)
-            if values is not None:
-                object.__setattr__(self, name, owned(name, values))
+            del columns["axial_force"]
+        x, tables = tables_of(self.x, columns, self.interpolation)
+        tables.setdefault("axial_force", np.zeros((len(x) - 1, 2)))
+        for name, values in {"x": x, **tables}.items():
+            object.__setattr__(self, name, owned(name, values))
         check(self)
 
     @classmethod
@@ -199,23 +226,14 @@ class Beam(ByValue):
         """
         if unknown := sorted(columns.keys() - set(TABLES)):
             raise TypeError(f"a beam has no column {unknown[0]!r}; it may have {', '.join(TABLES)}")
-        stations = np.atleast_1d(numbers("x", x))
-        check_stations(stations)
-        kept = kept_intervals(stations, interpolation)
-        columns["mass_per_length"], columns["bending_stiffness"] = (
-            mass_per_length,
-            bending_stiffness,
-        )
-        columns["axial_stiffness"], columns["axial_force"] = axial_stiffness, axial_force
-        tables: dict[str, Any] = {}
-        for column, values in columns.items():
-            if values is not None:
-                rows = column_of_rows(column, values, len(stations), interpolation)
-                tables[column] = interval_ends(rows, kept, interpolation)
-        if not {"mass_per_length", "bending_stiffness"} <= tables.keys():
+        columns |= {"axial_stiffness": axial_stiffness, "axial_force": axial_force}
+        columns |= {"mass_per_length": mass_per_length, "bending_stiffness": bending_stiffness}
+        given = {column: values for column, values in columns.items() if values is not None}
+        if not {"mass_per_length", "bending_stiffness"} <= given.keys():
             raise InputError("mass_per_length and bending_stiffness are needed at every station")
+        stations, tables = tables_at_stations(as_column("x", x), given, interpolation)
         return cls(
-            breakpoints(stations, kept),
+            stations,
             **tables,
             interpolation=interpolation,
             ends=ends or FREE,
@@ -255,15 +273,6 @@ class Beam(ByValue):
 
     def _breakpoint(self, x: float) -> int:
         return int(np.argmin(np.abs(self.x - x)))
-
-    @property
-    def axial_joint_compliance(self) -> Array:
-        """Axial compliance of the joints at every breakpoint [m/N], shape (n + 1,)."""
-        compliance = np.zeros(len(self.x))
-        for item in self.attachments:
-            if isinstance(item, Joint):
-                compliance[self._breakpoint(item.x)] += item.axial
-        return compliance
 
     def with_breakpoints(self, positions: Sequence[float]) -> Beam:
         """Return the same beam with breakpoints at the given positions [m] as well."""

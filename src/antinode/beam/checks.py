@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import numpy.typing as npt
 
-from antinode.arguments import choice, numbers
+from antinode.arguments import choice
 from antinode.arrays import Array, Interpolation
 from antinode.errors import InputError
-from antinode.text import counted
 
 from .attachments import check_attachments, check_supports_apart, held_places
 from .ends import check_follower
 from .families import FAMILIES, FamilyName
+from .stations import check_stations
 
 if TYPE_CHECKING:
     from .beam import Beam
@@ -53,13 +53,6 @@ def check(beam: Beam) -> None:
             )
 
 
-def check_stations(x: Array) -> None:
-    """Raise InputError unless x is a column of at least two places."""
-    if x.ndim != 1 or len(x) < 2:
-        received = counted(len(x), "place") if x.ndim == 1 else f"an array of shape {x.shape}"
-        raise InputError(f"a beam needs at least two breakpoints x; received {received}")
-
-
 def _check_rising(x: Array) -> None:
     rises = x[1:] > x[:-1]
     if rises.all() and x[0] > -np.inf and x[-1] < np.inf:
@@ -71,30 +64,6 @@ def _check_rising(x: Array) -> None:
         f"x must increase from row to row: row {k + 2} has {x[k + 1]:g} m "
         f"after {x[k]:g} m in row {k + 1}"
     )
-
-
-def column_of_rows(
-    name: str, values: npt.ArrayLike, rows: int, interpolation: Interpolation
-) -> Array:
-    """Return a column with a value at every station, from one number for all or one for each.
-
-    Raises
-    ------
-    InputError
-        Unless it has one for each station, or step, of a table.
-    """
-    column = numbers(name, values)
-    if column.ndim == 0:
-        column = np.full(rows, column)
-    choice("interpolation", interpolation, Interpolation)
-    allowed = (rows, rows - 1) if interpolation == "step" else (rows,)
-    if column.ndim != 1 or len(column) not in allowed:
-        wanted = " or ".join(f"({number},)" for number in allowed)
-        raise InputError(
-            f"{name} has shape {column.shape}, but x has {counted(rows, 'station')}: give one "
-            f"value for each, shape {wanted}, or a single number"
-        )
-    return column
 
 
 def _check_complete(beam: Beam) -> None:

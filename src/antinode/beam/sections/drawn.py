@@ -12,13 +12,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from antinode.arguments import choice, numbers
+from antinode.arguments import choice
 from antinode.arrays import Array, Interpolation
 from antinode.beam import curves
 from antinode.beam.beam import Beam
-from antinode.beam.checks import TABLES, ShearForm, Theory, check_stations, column_of_rows
+from antinode.beam.checks import TABLES, ShearForm, Theory
 from antinode.beam.ends import FREE, Ends
 from antinode.beam.profile import interval_ends, kept_intervals
+from antinode.beam.stations import as_column, check_stations, column_of_rows
 from antinode.errors import InputError
 from antinode.text import nearest
 
@@ -72,7 +73,7 @@ def drawn_beam(
     >>> round(rod.mass, 4)
     4.9323
     """
-    stations = np.atleast_1d(numbers("x", x))
+    stations = np.atleast_1d(as_column("x", x))
     drawing, others = _read(stations, columns, material, interpolation)
     own = drawing.columns
     tables: dict[str, Any] = own.tables | {
