@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from .beam.beam import Beam
     from .beam.ends import Ends
     from .beam.file import BeamFile, load_beam
+    from .beam.sections.drawn import drawn_beam
     from .beam.sections.material import Material
+    from .beam.sections.section import Section
     from .errors import AntinodeError, ComputationError, InputError
     from .modes.batch import BatchResult, BeamBatch, solve_many
     from .modes.buckling import Buckling, buckling
@@ -55,6 +57,8 @@ _HOME = {
     "Dashpot": "beam.attachments",
     "Joint": "beam.attachments",
     "Material": "beam.sections.material",
+    "Section": "beam.sections.section",
+    "drawn_beam": "beam.sections.drawn",
     "PointMass": "beam.attachments",
     "Spring": "beam.attachments",
     "load_beam": "beam.file",
@@ -130,6 +134,7 @@ __all__ = [
     "OperatingCondition",
     "Output",
     "PointMass",
+    "Section",
     "Spring",
     "Stations",
     "Study",
@@ -139,6 +144,7 @@ __all__ = [
     "buckling",
     "case_table",
     "compute_loads",
+    "drawn_beam",
     "frequency_response",
     "identify",
     "load_beam",

@@ -179,7 +179,7 @@ def test_a_truth_value_is_no_count():
         solve_modes(Beam.from_stations([0, 1], 1.0, 1.0), True)
 
 
-@pytest.mark.parametrize("item", ["mass", [PointMass(0.5, 1.0)], PointMass("0.5", 1.0), None])
+@pytest.mark.parametrize("item", ["mass", [PointMass(0.5, 1.0)], PointMass([0.5], 1.0), None])
 def test_what_no_beam_carries_is_refused(item):
     with pytest.raises(InputError, match=r"carries|give a number"):
         Beam.from_stations([0, 1], 1.0, 1.0).with_attachments(item)

@@ -22,8 +22,17 @@ APART = 1e-8
 """Least distance of two supports over the length of the beam; nearer ones hold nothing between."""
 
 
+class _Given:
+    """What may be given as texts with units: ``PointMass(x="3 ft", mass="20 kg")``."""
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if type(value) is not float and type(value) is not int:
+                object.__setattr__(self, name, _number(type(self), name, value))
+
+
 @dataclass(frozen=True)
-class PointMass:
+class PointMass(_Given):
     """A rigid mass fixed to the beam.
 
     Parameters
@@ -48,7 +57,7 @@ class PointMass:
 
 
 @dataclass(frozen=True)
-class Spring:
+class Spring(_Given):
     """Springs between the beam and the ground; infinite ones are supports.
 
     Parameters
@@ -73,7 +82,7 @@ class Spring:
 
 
 @dataclass(frozen=True)
-class Joint:
+class Joint(_Given):
     """An elastic joint in line with the beam.
 
     Parameters
@@ -95,7 +104,7 @@ class Joint:
 
 
 @dataclass(frozen=True)
-class Dashpot:
+class Dashpot(_Given):
     """Dampers between the beam and the ground; undamped modes know nothing of them.
 
     Parameters
@@ -116,6 +125,15 @@ class Dashpot:
 
 
 Attachment = PointMass | Spring | Joint | Dashpot
+
+
+def _number(kind: type, name: str, value: Any) -> Any:
+    """Return a number in SI from what was given; what is none is left to `check_kinds`."""
+    from antinode.inputs.given import in_si, written_unit
+
+    unit = "m" if name == "x" else written_unit(_UNITS[kind][name])
+    number = in_si(f"{name} of a {_NAMES[kind]}", value, unit)
+    return float(number) if np.ndim(number) == 0 and np.isreal(number) else value
 
 
 def beside_joints(items: Iterable[Attachment]) -> list[float]:

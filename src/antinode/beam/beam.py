@@ -29,7 +29,6 @@ from antinode.riccati.points import Point
 from . import curves
 from .attachments import (
     Attachment,
-    Joint,
     PointMass,
     check_attachments,
     check_kinds,

@@ -63,7 +63,7 @@ def column_of_rows(
 
 def tables_of(
     x: Any, columns: Mapping[str, Any], interpolation: Interpolation
-) -> tuple[Array, dict[str, Array]]:
+) -> tuple[Array, dict[str, Any]]:
     """Return breakpoints and tables of a beam from columns of any form.
 
     Parameters
@@ -93,7 +93,7 @@ def tables_of(
 
 def tables_at_stations(
     x: Array, columns: Mapping[str, Any], interpolation: Interpolation, *, jumps: bool = True
-) -> tuple[Array, dict[str, Array]]:
+) -> tuple[Array, dict[str, Any]]:
     """Return breakpoints and tables of columns that have one value for each station.
 
     With "step" row k holds from x_k to x_k+1, and the last row only closes the table.

@@ -1,7 +1,7 @@
 """What Python callers give where a number or a column is wanted: in SI, whatever it was.
 
-A plain number is SI, as in files. A text carries its unit (``"3 ft"``); so may each row of a column,
-a column of pandas or xarray by ``attrs["units"]``, and a quantity of pint.
+A plain number is SI, as in files. A text carries its unit (``"3 ft"``); so may each row of a
+column, a column of pandas or xarray by ``attrs["units"]``, and a quantity of pint.
 """
 
 from __future__ import annotations
@@ -47,6 +47,14 @@ def in_si(name: str, values: Any, unit: str) -> Any:
         ) from error
 
 
+def written_unit(key: str) -> str:
+    """Return a unit as texts have it from how it stands in a key: ``N_m_per_rad``, ``kg_m2``."""
+    above, _, below = key.replace("m2", "m^2").replace("_", " ").partition(" per ")
+    if not below:
+        return above
+    return f"{above}/({below})" if " " in below else f"{above}/{below}"
+
+
 def _column_in_si(values: Any, unit: str) -> Any:
     """Return a column with its texts as numbers; what has no unit is left to others as it is."""
     array, factor = np.asarray(values), _factor_of(values, unit)
@@ -70,4 +78,3 @@ def _factor_of(values: Any, unit: str) -> float:
     attributes = getattr(values, "attrs", None)
     written = attributes.get("units") if isinstance(attributes, Mapping) else None
     return 1.0 if written in (None, "", "1") else unit_factor(str(written), unit)
-

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
@@ -23,6 +23,17 @@ class Material(Frozen):
     shear_coefficient: Annotated[Number, Field(gt=0, le=1)] | None = Field(
         None, description="kappa in kGA; by default Cowper's of the section"
     )
+
+    if TYPE_CHECKING:  # what the fields are made of
+
+        def __init__(
+            self,
+            *,
+            youngs_modulus: float | str,
+            density: float | str,
+            poisson_ratio: float | str = 0.3,
+            shear_coefficient: float | str | None = None,
+        ) -> None: ...
 
     @property
     def shear_modulus(self) -> float:
