@@ -122,7 +122,7 @@ class Section:
         **settings
             As `drawn_beam` takes them: ends, theory, shear_form, name, axial_force, ...
         """
-        return drawn_beam(x, self.material, **settings, **self.dimensions)
+        return drawn_beam(x, self.material, **settings, **dict[str, Any](self.dimensions))
 
     def __repr__(self) -> str:
         given = ", ".join(f"{n}={v:g} {COLUMN_UNITS[n]}" for n, v in self.dimensions.items())
