@@ -40,7 +40,8 @@ class Share(NamedTuple):
     holds, counted : int
         Cases in which it does, of those in which all that it names is known.
     unknown : int
-        Cases that were asked for, in which something is not: they failed, or a mode diverges.
+        Cases that were asked for, in which something is not: they failed, a mode diverges, or the
+        arithmetic has no result, as x / 0.
     """
 
     condition: str
@@ -87,6 +88,8 @@ class Worst(NamedTuple):
         Values of the inputs in SI, by name.
     unknown : int
         Cases in which the number is not known.
+    units : dict
+        Units of the inputs, by name; "1" where there is none.
     """
 
     of: str
@@ -96,6 +99,7 @@ class Worst(NamedTuple):
     values: tuple[float, ...]
     inputs: tuple[dict[str, float], ...]
     unknown: int
+    units: dict[str, str]
 
 
 class Answers:
@@ -209,12 +213,17 @@ class Answers:
             at, best = at[order], best[order]
         inputs = tuple(self.inputs(case) for case in at.tolist())
         which, values = tuple(at.tolist()), tuple(best.tolist())
-        return Worst(text, formula.unit, largest, which, values, inputs, unknown)
+        return Worst(text, formula.unit, largest, which, values, inputs, unknown, self.units())
 
     def inputs(self, case: int) -> dict[str, float]:
         """Return the values of the inputs in a case [SI]."""
         names = self.dataset.attrs["input_names"]
         return {name: float(self.dataset[name][case]) for name in names}
+
+    def units(self) -> dict[str, str]:
+        """Return the units of the inputs, by name."""
+        names = self.dataset.attrs["input_names"]
+        return {name: str(self.dataset[name].attrs.get("units", "1")) for name in names}
 
     def _asked(self) -> int:
         """Return the number of cases that are asked."""

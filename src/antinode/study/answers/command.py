@@ -66,6 +66,8 @@ def run_ask(
     study, dataset = _asked(file, assignments, check, needs_study=search)
     answers = Answers(dataset, where, defined)
     data = _data(answers, where, share, quantiles, extremes, number)
+    if where:
+        data["asked"] = _share(Answers(dataset, None, defined), where)
     if study and search:
         data["searches"] = [
             _found(_searched(study, dataset, text, at_top, defined)) for text, at_top in extremes
@@ -98,6 +100,7 @@ def _data(
         "name": str(answers.dataset.attrs["title"]),
         "cases": int(answers.dataset.sizes["case"]),
         "where": where,
+        "asked": None,
         "shares": [_share(answers, text) for text in share],
         "quantiles": [_quantiles(answers, text) for text in quantiles],
         "worst": [_worst(answers, text, number, at_top) for text, at_top in extremes],

@@ -137,10 +137,12 @@ class Formula:
         return np.broadcast_to(found, (cases,))
 
     def known(self, columns: Columns) -> npt.NDArray[np.bool_]:
-        """Tell in which cases all that it takes is known, shape (cases,)."""
+        """Tell in which cases all that it takes, and all its arithmetic, is a number, (cases,)."""
         walk = _Walk(self._known, columns)
-        walk.value(self.tree)
-        return np.asarray(np.logical_and.reduce([np.isfinite(v) for v in walk.used]))
+        with np.errstate(all="ignore"):
+            walk.value(self.tree)
+        known = np.broadcast_arrays(*(np.isfinite(v) for v in walk.used))
+        return np.asarray(np.logical_and.reduce(known))
 
 
 class _Walk:
@@ -189,7 +191,8 @@ class _Walk:
         column = self.columns[name][:, self.known.mode(place)]
         return self._used(column, self.known.units[name])
 
-    def _used(self, column: npt.NDArray[Any], unit: str) -> _Value:
+    def _used(self, column: npt.NDArray[Any], unit: str | None) -> _Value:
+        """Keep what must be finite where a formula is known, x / 0 and log(-1) among it."""
         self.used.append(column)
         return _Value(column, unit)
 
@@ -214,7 +217,7 @@ class _Walk:
         left, right = self._beside(node.left, node.right)
         same = left.unit if left.unit == right.unit else None
         unit = same if isinstance(node.op, ast.Add | ast.Sub) else None
-        return _Value(how(np.asarray(left.value, float), right.value), unit)
+        return self._used(how(np.asarray(left.value, float), right.value), unit)
 
     def _unaryop(self, node: ast.UnaryOp) -> _Value:
         if isinstance(node.op, ast.Not):
@@ -257,7 +260,8 @@ class _Walk:
         parts = [self._number(argument) for argument in node.args]
         units = {part.unit for part in parts}
         unit = units.pop() if name in ("min", "max", "abs") and len(units) == 1 else None
-        return _Value(FUNCTIONS[name](*(np.asarray(part.value, float) for part in parts)), unit)
+        values = (np.asarray(part.value, float) for part in parts)
+        return self._used(FUNCTIONS[name](*values), unit)
 
 
 def _with_unit(text: str, beside: _Value) -> float:

@@ -15,7 +15,9 @@ from antinode.text import counted
 
 def show_answers(out: Console, data: dict[str, Any]) -> None:
     """Print shares, quantiles, worst cases and what was searched for."""
-    where = f", where {data['where']}" if data["where"] else ""
+    where = ""
+    if asked := data["asked"]:
+        where = f", where {asked['condition']}: {counted(asked['holds'], 'case')}{_unknown(asked)}"
     out.print(
         f"[bold]{escape(data['name'])}[/bold]: {counted(data['cases'], 'case')}{escape(where)}",
         highlight=False,
@@ -54,7 +56,7 @@ def _show_worst(out: Console, worst: dict[str, Any]) -> None:
     out.print(Text(f"{how} {worst['of']}{_unknown(worst)}"))
     if not worst["cases"]:
         return
-    names = list(worst["inputs"][0])
+    names = [f"{name}{_unit(worst['units'][name])}" for name in worst["inputs"][0]]
     table = new_table("case", f"{worst['of']}{_unit(worst['unit'])}", *names)
     for case, value, inputs in zip(worst["cases"], worst["values"], worst["inputs"], strict=True):
         table.add_row(str(case), _number(value), *map(_number, inputs.values()))
@@ -63,10 +65,13 @@ def _show_worst(out: Console, worst: dict[str, Any]) -> None:
 
 def _show_search(out: Console, found: dict[str, Any]) -> None:
     how = "largest" if found["largest"] else "smallest"
-    inputs = ", ".join(f"{name} {_number(v)}" for name, v in found["inputs"].items())
+    inputs = ", ".join(
+        f"{name} = {_number(v)}{_behind(found['units'][name])}"
+        for name, v in found["inputs"].items()
+    )
     text = (
         f"{how} {found['of']} found inside the bounds: {_number(found['value'])}"
-        f"{_unit(found['unit'])} at {inputs} (the design's: {_number(found['design'])}; "
+        f"{_behind(found['unit'])} at {inputs} (the design's: {_number(found['design'])}; "
         f"{found['evaluations']} cases solved; the worst that was seen, no proof that there is "
         "none worse)"
     )
@@ -77,6 +82,10 @@ def _show_search(out: Console, found: dict[str, Any]) -> None:
 
 def _unit(unit: str) -> str:
     return "" if unit in ("", "1") else f" [{unit}]"
+
+
+def _behind(unit: str) -> str:
+    return "" if unit in ("", "1") else f" {unit}"
 
 
 def _number(value: float) -> str:

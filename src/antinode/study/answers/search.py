@@ -48,6 +48,8 @@ class Found(NamedTuple):
         Inputs that are at an end of their range.
     evaluations : int
         Cases that were solved.
+    units : dict
+        Units of the inputs, by name.
     """
 
     of: str
@@ -58,6 +60,7 @@ class Found(NamedTuple):
     inputs: dict[str, float]
     at_bounds: tuple[str, ...]
     evaluations: int
+    units: dict[str, str]
 
 
 def search(
@@ -99,7 +102,8 @@ def search(
     values = asked.values(best[None])[0]
     inputs = {v.name: float(x) for v, x in zip(points.variables, values, strict=True)}
     value, design = asked.sign * least, start.values[0]
-    return Found(text, start.unit, largest, value, design, inputs, tuple(edge), asked.evaluations)
+    last = tuple(edge), asked.evaluations, start.units
+    return Found(text, start.unit, largest, value, design, inputs, *last)
 
 
 def _evolved(asked: _Asked, start: Any, seed: int) -> tuple[Array, float]:

@@ -60,6 +60,14 @@ def test_shares_leave_out_what_is_not_known(data):
     assert np.isnan(an.Answers(data, where="speed > 1e9").share("f1 > 2.5").share)
 
 
+def test_what_cannot_be_worked_out_is_not_counted(data):
+    """A division by zero held in every comparison with `>`."""
+    found = an.Answers(data).share("f1 / (speed - speed) > 1")
+    assert (found.holds, found.counted, found.unknown) == (0, 0, 128)
+    ratio = an.Answers(data).worst("1 / (f2 - f2)", largest=True)
+    assert (ratio.cases, ratio.unknown) == ((), 128)
+
+
 def test_worst_cases_come_with_their_inputs(data):
     f1 = data.frequency_hz.values[:, 0]
     found = an.Answers(data, define={"gap": "f2 - f1"}).worst("gap", 4, largest=True)
@@ -67,7 +75,7 @@ def test_worst_cases_come_with_their_inputs(data):
     assert list(found.cases) == np.argsort(-gap, kind="stable")[:4].tolist()
     assert found.values == pytest.approx(np.sort(gap)[::-1][:4])
     assert found.inputs[0]["speed"] == float(data.speed[found.cases[0]])
-    assert found.unit == "Hz"
+    assert (found.unit, found.units["speed"]) == ("Hz", "m/s")
 
 
 def test_quantiles_are_those_of_numpy(data):

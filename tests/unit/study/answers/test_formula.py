@@ -70,6 +70,23 @@ def test_what_is_not_known_is_told():
 
 
 @pytest.mark.parametrize(
+    ("text", "known"),
+    [
+        ("1 / (speed - 80) > 0", [True, False, True]),  # x / 0 is no number, and no large one
+        ("-1 / (speed - 80)", [True, False, True]),
+        ("(speed - 80) / (speed - 80) > 0 or speed > 0", [True, False, True]),
+        ("log(speed - 80) < 5", [False, False, True]),
+        ("sqrt(speed - 80) >= 0 or thrust > 0", [False, True, True]),
+        ("min(1 / (speed - 80), 3) < 4", [True, False, True]),
+        ("exp(100 * speed) > 1", [False, False, False]),
+        ("speed > 1 / 0", [False, False, False]),
+    ],
+)
+def test_arithmetic_without_a_result_is_not_known(text, known):
+    assert read(text).known(COLUMNS).tolist() == known
+
+
+@pytest.mark.parametrize(
     ("text", "words"),
     [
         ("sped > 1", "did you mean speed"),
