@@ -294,6 +294,12 @@ def springs_hold(point: Point) -> tuple[float, tuple[int, ...]]:
     return 0.0, tuple({*point.holds, *(i for i, stiffness in enumerate(springs) if stiffness)})
 
 
+def pushing_springs(point: Point) -> bool:
+    """Tell whether the springs of a point can do work: K_xtheta^2 above K_x K_theta."""
+    k, turning, coupling = point.spring, point.rotational_spring, point.coupling
+    return k >= 0 and coupling**2 > max(k * turning, 0.0) + ROUNDING * coupling**2
+
+
 def gather(
     attachments: Sequence[Attachment], x: Array, family: FamilyName, acceleration: float
 ) -> dict[int, Point]:

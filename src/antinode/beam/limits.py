@@ -116,19 +116,41 @@ def waves(N: Array, EI: Array, length: Array) -> tuple[Array, Array]:
 
 def _check_axial_force(beam: Beam) -> None:
     """Refuse a force that is out of all proportion to the bending stiffness."""
-    interval, fraction = np.arange(len(beam.x) - 1)[:, None], SAMPLES[None]
-    N = beam.axial_force_at(interval, fraction)
-    EI = beam.column_at("bending_stiffness", interval, fraction)
-    buckled, tension = (float(v) for v in waves(N, EI, np.diff(beam.x)))
+    buckled, N = _waves_of(beam)[0], beam.axial_force
     if not buckled <= MOST_BUCKLED:
         raise InputError(
             f"the axial force of up to {np.max(N):.3g} N would make about {buckled:.0f} modes "
             f"diverge; at most {MOST_BUCKLED:g} are computed: check the units of axial force and "
             "bending_stiffness"
         )
+    check_tension(beam)
+
+
+def check_tension(beam: Beam) -> None:
+    """Refuse a tension whose layers at the ends are too thin for shapes.
+
+    Raises
+    ------
+    InputError
+        If it is more than `MOST_TENSION` times bending stiffness over length squared.
+    """
+    N, EI = beam.axial_force, beam.bending_stiffness
+    if not beam.axial_acceleration and -N.min() * beam.length**2 <= MOST_TENSION * EI.min():
+        return
+    tension = _waves_of(beam)[1]
     if not tension <= MOST_TENSION:
         raise InputError(
             f"the tension of up to {-np.min(N):.3g} N is about {tension:.2g} times "
-            f"bending_stiffness over length squared; at most {MOST_TENSION:g} is computed: check "
-            "their units; if they are right, it is a string, f_k = k/(2 L) sqrt(tension/m)"
+            f"bending_stiffness over length squared; at most {MOST_TENSION:g} is computed with "
+            "shapes: check their units; if they are right, it is a string, f_k = k/(2 L) "
+            "sqrt(tension/m); natural_frequencies in Python solves without shapes"
         )
+
+
+def _waves_of(beam: Beam) -> tuple[float, float]:
+    """Return `waves` of a beam."""
+    interval, fraction = np.arange(len(beam.x) - 1)[:, None], SAMPLES[None]
+    N = beam.axial_force_at(interval, fraction)
+    EI = beam.column_at("bending_stiffness", interval, fraction)
+    buckled, tension = waves(N, EI, np.diff(beam.x))
+    return float(buckled), float(tension)

@@ -18,9 +18,9 @@ import numpy.typing as npt
 
 from antinode.arrays import Array
 
-from .attachments import Spring
+from .attachments import Spring, gather, pushing_springs
 from .beam import Beam
-from .families import LONGITUDINAL
+from .families import BENDING, LONGITUDINAL
 from .profile import Profile, interpolated
 
 FASTEST, SLOWEST = 14e3, 20.0
@@ -45,7 +45,7 @@ def doubts(beam: Beam) -> list[str]:
     """
     per_length = beam.mass / beam.length
     own = replace(beam, attachments=()).mass / beam.length if beam.attachments else per_length
-    pulled = list(_weight_from_clamp(beam))
+    pulled = [*_weight_from_clamp(beam), *_springs_that_push(beam)]
     EI = 1 / _mean_compliance(beam, "bending_stiffness")
     if beam.axial_stiffness is None:
         alone = _bending_alone(beam, np.sqrt(EI / per_length), np.sqrt(EI / own))
@@ -169,6 +169,21 @@ def _weight_from_clamp(beam: Beam) -> Iterator[str]:
             f"the weight of {abs(a):.5g} m/s^2 along {sign}x pulls away from the clamped end at x "
             f"= {place:g} m: the beam hangs from it, and the tension stiffens it; a mast that "
             f"stands on this end has gravity = {-a:.5g}; if it hangs, ignore this"
+        )
+
+
+def pushed_at(beam: Beam) -> list[float]:
+    """Return the stations of springs that no passive support has [m]."""
+    points = gather(beam.attachments, beam.x, BENDING, 0.0).values()
+    return [float(beam.x[point.node]) for point in points if pushing_springs(point)]
+
+
+def _springs_that_push(beam: Beam) -> Iterator[str]:
+    for x in pushed_at(beam):
+        yield (
+            f"the springs at x = {x:g} m have K_xtheta^2 above K_x K_theta: they push the beam "
+            "away and feed it energy, which no soil or pile head does: check the coupling [N] "
+            "against translational [N/m] times rotational [N m/rad]"
         )
 
 

@@ -20,7 +20,7 @@ from antinode.arguments import choice, whole, within
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FAMILIES, FamilyName
-from antinode.beam.limits import out_of_range_is_an_error
+from antinode.beam.limits import check_tension, out_of_range_is_an_error
 from antinode.errors import ComputationError, InputError
 from antinode.riccati.chain import omega2_scale
 from antinode.riccati.roots import Eigenvalue
@@ -96,6 +96,7 @@ def solve_modes(
     choice("normalisation", normalisation, Normalisation)
     solver = solver_of(method, choose(backend))
     beam = beam_of(problem)
+    check_tension(beam)
     chosen = beam.families if families is None else _chosen(families)
     found = _solve_families(beam, chosen, modes, tolerance, solver, method, normalisation, unloaded)
     return _with_notes(found, problem)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from antinode.beam.beam import Beam
-from antinode.beam.plausible import doubts
+from antinode.beam.plausible import doubts, pushed_at
 
 from .result import Mode
 
@@ -18,6 +18,14 @@ _MOST = 0.5  # of a first-order effect: omega^2 would be negative
 PAST_BUCKLING = (
     "the axial compression is past buckling; the motion grows instead of vibrating: reduce the "
     "compression or stiffen the beam"
+)
+SPRINGS_PUSH = (
+    "nothing compresses the beam, but its springs push it away; the motion grows instead of "
+    "vibrating: check their coupling"
+)
+ROTATION_SOFTENS = (
+    "nothing compresses the beam, but in the plane of its rotation the centrifugal force takes it "
+    "off the axis; the motion grows instead of vibrating: stiffen the beam or its supports"
 )
 ROTATION_DIVERGES = (
     "rigid rotation is divergent (omega^2 < 0), as for every free body in net compression by "
@@ -68,12 +76,22 @@ def _rotation_warning(beam: Beam) -> str:
     return LOWEST_DIVERGES
 
 
+def _cause(beam: Beam) -> str:
+    """Say why an elastic mode diverges."""
+    compressed = np.any(beam.axial_force > 0) or beam.axial_acceleration
+    if not compressed and pushed_at(beam):
+        return SPRINGS_PUSH
+    if not compressed and beam.rotation is not None:
+        return ROTATION_SOFTENS
+    return PAST_BUCKLING
+
+
 def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
     """Return what a user should know of these modes, a sentence each."""
     warnings = doubts(beam)
     divergent = [m.name for m in modes if m.kind == "divergent" and m.number]
     if divergent:
-        warnings.append(f"{', '.join(divergent)}: omega^2 < 0, {PAST_BUCKLING}")
+        warnings.append(f"{', '.join(divergent)}: omega^2 < 0, {_cause(beam)}")
     growing = [m for m in modes if m.kind == "flutter"]
     if growing:
         names = ", ".join(f"{m.name} (by {m.growth:.4g} /s)" for m in growing)

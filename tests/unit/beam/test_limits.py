@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from antinode import Beam, Ends, InputError, solve_modes
+from antinode import Beam, Ends, InputError, natural_frequencies, solve_modes
 from antinode.beam.axial import AxialLoads, PointForce, apply_loads
 from antinode.beam.limits import check_limits
 from antinode.riccati.chain import count_below
@@ -81,3 +81,33 @@ def test_shapes_of_strings(T, backend):
         assert np.abs(mode.shape) == pytest.approx(np.abs(np.sin(k * np.pi * found.x)), abs=1e-9)
     x = np.array([0.123, 0.9])
     assert np.abs(found.at(x)[:, 0, 0]) == pytest.approx(np.sin(np.pi * x), abs=1e-9)
+
+
+@pytest.mark.parametrize("T", [2e9, 1e14])
+def test_python_is_told_of_a_string_too(T):
+    """Its shapes took minutes; frequencies alone are soon there."""
+    beam = Beam.from_stations([0, 1], 1.0, 1.0, None, -T, ends=Ends("pinned", "pinned"))
+    with pytest.raises(InputError, match=r"is a string.*natural_frequencies"):
+        solve_modes(beam, 1)
+
+
+def test_a_string_by_its_own_weight_is_told_of():
+    """A wire of 100 km under its weight: no entry of its table is large, the weight makes N."""
+    hung = Ends("pinned", "free", left_axial="fixed", right_axial="free")
+    wire = Beam.from_stations([0, 1e5], 1e-3, 1e-4, 10.0, ends=hung)
+    with pytest.raises(InputError, match="is a string"):
+        solve_modes(apply_loads(wire, AxialLoads(9.81)), 1)
+
+
+def test_frequencies_of_a_string_beyond_the_limit():
+    T, k = 1e10, np.pi * np.arange(1, 4)
+    beam = Beam.from_stations([0, 1], 1.0, 1.0, None, -T, ends=Ends("pinned", "pinned"))
+    found = natural_frequencies(beam, 3)
+    true = np.sqrt(k**4 + T * k**2) / (2 * np.pi)
+    assert np.all(np.abs(found.frequencies_hz - true) <= found.error_hz)
+
+
+def test_a_short_taut_piece_is_no_string():
+    """The largest tension over the smallest stiffness times the whole length squared is 1e11."""
+    beam = Beam.from_stations([0, 0.01, 1], 1.0, [1.0, 1e3, 1e3], None, [-1e11, 0, 0])
+    solve_modes(beam, 1, families=["bending"])

@@ -76,7 +76,11 @@ def _pass(model: Model, name: str, cards: list[Card]) -> None:
         model.passed[name] += len(cards)
         return
     if chosen:
-        raise cards[0].error(f"the case control chooses {chosen[0]}, which is not read; remove it")
+        instead = "write a rigid link as RBE2, or " if name.startswith("MPC") else ""
+        raise cards[0].error(
+            f"the case control chooses {chosen[0]}, which is not read: {instead}take it out of the "
+            "case control"
+        )
     if name in ELEMENTS:
         raise cards[0].error(
             "it is no element of a beam; name those that are with --elements, e.g. --elements "
@@ -236,7 +240,11 @@ def _bush(model: Model, card: Card) -> None:
     """Read a CBUSH to the ground, in the directions of its grid."""
     number, grid = card.integer(2, card.integer(1)), card.integer(3)
     if card.text(4):
-        _unread(model, card, "it joins two grids; only one to the ground is read")
+        _unread(
+            model,
+            card,
+            "it joins two grids; only one to the ground is read: write a joint as CELAS2 and RBE2",
+        )
         return
     if number not in model.bushes:
         raise card.error(f"there is no PBUSH {number}")
