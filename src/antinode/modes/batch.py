@@ -88,6 +88,9 @@ class BeamBatch(ByValue):
         foundation holds every beam of a batch, or none.
     shear_form : {"haringx", "engesser"}
         How the axial force and shear meet.
+    force_over_shear, force_squared_over_shear : array, (n,) or (beams, n), optional
+        Averages of N/kGA [-] and N^2/kGA [N] over segments inside which these vary, beside
+        `shear_stiffness`, both or neither; by default of the segments' own, as for uniform ones.
 
     Raises
     ------
@@ -117,6 +120,8 @@ class BeamBatch(ByValue):
     foundation_stiffness: Array | None = None
     added_mass_per_length: Array | None = None
     shear_form: ShearForm = "haringx"
+    force_over_shear: Array | None = None
+    force_squared_over_shear: Array | None = None
     _one_structure: bool = field(default=False, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -127,7 +132,7 @@ class BeamBatch(ByValue):
         rows, n = _common_shape(tables)
         object.__setattr__(self, "_one_structure", self._varies_by_force(tables))
         for name, values in tables.items():
-            shape = (_rows(values) if name in ("length", *_MORE) else rows, n)
+            shape = (_rows(values) if name in ("length", *_MORE, *_AVERAGES) else rows, n)
             if values.shape != shape:
                 same = values.size == shape[0] * n
                 values = values.reshape(shape) if same else np.broadcast_to(values, shape)
@@ -145,9 +150,15 @@ class BeamBatch(ByValue):
                 self._refuse(family)
         if any(getattr(self, name) is not None for name in _MORE if name not in family.more):
             self._refuse(family)
+        averages = [name for name in _AVERAGES if getattr(self, name) is not None]
+        if averages and (len(averages) == 1 or self.shear_stiffness is None):
+            raise InputError(
+                f"a batch has {averages[0]}: give {' and '.join(_AVERAGES)} beside "
+                "shear_stiffness, or neither"
+            )
         if force and getattr(self, force) is None:
             object.__setattr__(self, force, np.zeros(1))
-        more = (name for name in _MORE if getattr(self, name) is not None)
+        more = (n for n in (*_MORE, *_AVERAGES) if getattr(self, n) is not None)
         return {name: owned(name, getattr(self, name)) for name in ("length", *tables, *more)}
 
     def _refuse(self, family: Family) -> None:
@@ -176,6 +187,7 @@ class BeamBatch(ByValue):
 _TABLES = tuple(dict.fromkeys(name for family in FAMILIES.values() for name in family.tables))
 
 
+_AVERAGES = "force_over_shear", "force_squared_over_shear"
 _MORE = (
     "shear_stiffness",
     "rotary_inertia_per_length",
@@ -352,6 +364,9 @@ def _more(batch: BeamBatch, N: Array) -> dict[str, Array] | None:
         columns["foundation"] = batch.foundation_stiffness
     if not columns:
         return None
+    if batch.force_over_shear is not None and batch.force_squared_over_shear is not None:
+        columns["shear_turn"] = batch.force_over_shear
+        columns["shear_work"] = batch.force_squared_over_shear
     none = np.zeros((1, N.shape[1]))
     return {"shear": none, "rotary_inertia": none, "foundation": none} | columns
 

@@ -11,7 +11,7 @@ from antinode.study.design.file import Study
 from antinode.study.design.points import Points, points_of
 from antinode.study.sensitivity.sensitivity import SensitivityResult, sensitivity
 from antinode.study.sweep.figures import plot_sweep
-from antinode.study.sweep.report import shear_text, summary, warning_texts
+from antinode.study.sweep.report import by_shear, summary, warning_texts
 from antinode.study.sweep.sweep import sweep
 from antinode.text import counted
 
@@ -122,13 +122,13 @@ def _ranges(modes: list[dict[str, Any]]) -> Block:
             str(each["cases"]),
             *(_number(each[key], 6) for key in ("least_hz", "mean_hz", "largest_hz")),
             _number(each["largest_error_hz"], 2),
-            _shear(each["largest_model_error"]),
+            _shear(each["largest_model_error"], each["largest_effect_of_shear"]),
         ]
         for each in modes
     ]
     caption = (
-        "Ranges. The error is the largest among the cases; so is what the last column estimates: "
-        "what a beam with shear and rotary inertia would find."
+        "Ranges. The error is the largest among the cases; so is what the last column tells: what "
+        "shear and rotary inertia do, solved, or estimated where the theory leaves them out."
     )
     return table(caption, head, rows)
 
@@ -140,8 +140,8 @@ def _number(value: float | None, digits: int) -> str:
     return "–" if value is None else number(value, digits)
 
 
-def _shear(effect: float | None) -> str:
-    return shear_text(effect).replace("-", "−") or "–"
+def _shear(estimated: float | None, solved: float | None) -> str:
+    return by_shear(estimated, solved).replace("-", "−") or "–"
 
 
 def _cases(points: Points, data: xarray.Dataset, quantity: str) -> Block:
@@ -191,7 +191,7 @@ def _index_blocks(result: SensitivityResult) -> Iterator[Block]:
         [
             m.name,
             *(number(v, 5) for v in (m.nominal, m.mean, m.sd, *m.band)),
-            _shear(m.model_error),
+            _shear(m.model_error, m.effect_of_shear),
         ]
         for m in result.modes
     ]

@@ -32,7 +32,11 @@ class Chains:
     following: Array | None = None
     """kappa of both ends [N], shape (chains, 2); None where no force turns with its end."""
     more: Mapping[str, Array] | None = None
-    """What segments have besides: flexibility in shear s, rotary inertia, foundation; all three."""
+    """What segments have besides: flexibility in shear s, rotary inertia, foundation; all three.
+
+    Where N varies inside the steps that segments are halves of, `shear_turn` and `shear_work` are
+    the averages of sN and sN^2; by default the products of the segments' own.
+    """
 
     def __len__(self) -> int:
         return len(self.axial_force)
@@ -46,8 +50,9 @@ class Chains:
         if self.following is not None:
             ends = float(self.following[row, 0]), float(self.following[row, 1])
         if self.more is not None:
-            own |= {name: v[row if len(v) > 1 else 0] for name, v in self.more.items()}
-            own |= {"shear_turn": own["shear"] * N, "shear_work": own["shear"] * N**2}
+            more = {name: v[row if len(v) > 1 else 0] for name, v in self.more.items()}
+            s = more["shear"]
+            own |= {"shear_turn": s * N, "shear_work": s * N**2} | more
         return Chain(self.law, h, own, self.left, self.right, following=ends)
 
     @property

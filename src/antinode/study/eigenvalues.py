@@ -85,12 +85,7 @@ def eigenvalues_of(
 
 
 def _side_by_side(chains: Sequence[Chain], numbers: Sequence[int]) -> list[Array]:
-    """Return the eigenvalues 1 ... n of free chains of a family; those of equal size in a batch.
-
-    One with shear, or what else its law may have, is solved by itself.
-    """
-    if not all(chain.is_plain for chain in chains):
-        return [_solve(chain, number) for chain, number in zip(chains, numbers, strict=True)]
+    """Return the eigenvalues 1 ... n of free chains of a family; those of equal size in a batch."""
     found: list[Array] = [np.zeros(0)] * len(chains)
     sizes = [len(chain.length) for chain in chains]
     for size in set(sizes):

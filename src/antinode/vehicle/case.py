@@ -24,7 +24,8 @@ from .condition import OperatingCondition, Water
 from .loads import Loads, compute_loads
 from .numbers import ManyCases, Numbers
 from .options import Model
-from .vehicle import Section, Vehicle
+from .theory import radius_of_gyration, sheared
+from .vehicle import Vehicle
 
 COLUMNS = (
     "x",
@@ -39,8 +40,6 @@ COLUMNS = (
     "shear_stiffness",
     "rotary_inertia_per_length",
 )
-THIN_TUBE = 4 + 3 * 0.3
-"""EA/kGA of a thin tube of nu = 0.3 (Cowper, 1966)."""
 
 
 class Case(Frozen):
@@ -111,28 +110,22 @@ def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float, model: Mo
         axial_acceleration=loads.axial_inertia,
         ends=Ends(left_follower=nose, right_follower=tail),
         end_force=(loads.F_CX, loads.thrust),
-        **_sheared(vehicle.section(loads.breakpoints, burn_fraction), model),
+        **_sheared(vehicle, loads, model),
     )
 
 
-def _sheared(section: Section, model: Model) -> dict[str, Any]:
-    """Return what Timoshenko's theory asks for besides; nothing in Euler-Bernoulli's.
-
-    kGA is that of the stations, or EA/(4 + 3 nu), that of a thin tube; rho I that of the stations,
-    or m times the square of the radius of gyration: of the stations, the hull, or sqrt(EI/EA).
-    """
-    if model.theory == "euler_bernoulli":
+def _sheared(vehicle: Vehicle, loads: Loads, model: Model) -> dict[str, Any]:
+    """Return what Timoshenko's theory asks for besides; nothing in Euler-Bernoulli's."""
+    found = sheared(
+        vehicle, model, loads.mass_distribution, lambda name: getattr(vehicle.stations, name)
+    )
+    if found is None:
         return {}
-    kGA, rotary = section.shear_stiffness, section.rotary_inertia_per_length
-    if rotary is None:
-        r2 = section.bending_stiffness / section.axial_stiffness
-        r = radius_of_gyration(section)
-        rotary = section.mass_per_length * (r2 if r is None else r**2)
     return {
         "theory": "timoshenko",
-        "shear_form": model.shear_form,
-        "shear_stiffness": section.axial_stiffness / THIN_TUBE if kGA is None else kGA,
-        "rotary_inertia_per_length": rotary,
+        "shear_form": found.form,
+        "shear_stiffness": found.stiffness.between(loads.breakpoints),
+        "rotary_inertia_per_length": found.rotary.between(loads.breakpoints),
     }
 
 
@@ -148,7 +141,7 @@ def body_as_beam(vehicle: Vehicle, x: Array, burn_fraction: float, **axial: Any)
         bending_stiffness=section.bending_stiffness,
         axial_stiffness=section.axial_stiffness,
         interpolation=_interpolation(vehicle),
-        radius_of_gyration=radius_of_gyration(section),
+        radius_of_gyration=radius_of_gyration(vehicle, x),
         torsional_stiffness=section.torsional_stiffness,
         polar_inertia_per_length=section.polar_inertia_per_length,
         name=vehicle.name,
@@ -160,20 +153,6 @@ def _interpolation(vehicle: Vehicle) -> Interpolation:
     """Return how the columns run, once linear parts may have been added to stepped stations."""
     linear = any(part.interpolation == "linear" for part in vehicle.masses)
     return "linear" if linear else vehicle.interpolation
-
-
-def radius_of_gyration(section: Section) -> Array | None:
-    """Return the radius of gyration of the cross-section: as given, or of the hull's tube [m].
-
-    ``r^2 = (R^2 + (R - t)^2)/4`` with outer radius R and wall t; None if neither is given (the beam
-    then takes sqrt(EI/EA)).
-    """
-    if section.radius_of_gyration is not None:
-        return section.radius_of_gyration
-    if section.wall is None:
-        return None
-    inner = np.maximum(section.radius - section.wall, 0.0)
-    return np.asarray(np.sqrt((section.radius**2 + inner**2) / 4))
 
 
 def load_case(path: str | Path, assignments: Iterable[str] = ()) -> Case:

@@ -7,15 +7,15 @@ Cases whose chains have as many segments are solved together.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from antinode.arrays import Array, Integers
+from antinode.arrays import Array, Integers, Interpolation
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.limits import MOST_BUCKLED, MOST_TENSION, SAMPLES, waves
@@ -25,6 +25,7 @@ from antinode.beam.representation import GAUSS, coarsest_steps, halved
 
 from .forces import ForceOnBody, drag_ahead
 from .many_loads import ManyLoads
+from .theory import Sheared, sheared
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,8 @@ class Chains:
         The cases.
     length, mass, stiffness, axial_force : array, shape (cases or 1, n)
     more : dict of array, shape (cases, n)
-        Columns of a chain besides: what shear and rotary inertia add.
+        Columns of a chain besides: what shear and rotary inertia add. Of s, sN and sN^2 each is an
+        average of its own.
     following : array, shape (cases, 2), optional
         The part of the forces at both ends that turns with them [N]; None where they do not.
     """
@@ -49,6 +51,21 @@ class Chains:
     axial_force: Array
     more: Mapping[str, Array] = field(default_factory=dict)
     following: Array | None = None
+
+    @property
+    def rigid(self) -> Chains:
+        """The same without shear and rotary inertia: Euler-Bernoulli's."""
+        return replace(self, more={})
+
+
+class Values(NamedTuple):
+    """Properties at points of cells, arrays that go with (cases, cells, points)."""
+
+    mass: Array
+    stiffness: Array
+    axial_force: Array
+    more: Mapping[str, Array]
+    """kGA and rho I as `shear_stiffness` and `rotary_inertia`, where these count."""
 
 
 @dataclass(frozen=True)
@@ -77,6 +94,12 @@ class ManyBeams:
         return table.between(self.loads.mass_distribution.x)
 
     @cached_property
+    def shear(self) -> Sheared | None:
+        """Shear and rotary inertia of the same intervals; None in Euler-Bernoulli's theory."""
+        cases, masses = self.loads.cases, self.loads.mass_distribution
+        return sheared(cases.vehicle, cases.model, masses, cases.optional_column)
+
+    @cached_property
     def cells(self) -> Array:
         """Bounds of the cells [m]: the case's own intervals, the long and steep ones divided."""
         masses = self.loads.mass_distribution
@@ -86,6 +109,7 @@ class ManyBeams:
             x=masses.x,
             mass_per_length=_mean(masses.ends),
             bending_stiffness=_mean(self.stiffness),
+            shear_stiffness=_mean(self.shear.stiffness.ends) if self.shear else None,
             axial_acceleration=1.0,
             interpolation=masses.interpolation,
         )
@@ -96,20 +120,22 @@ class ManyBeams:
     def chains(self, rows: Integers, refinement: int) -> list[Chains]:
         """Return the chains of some cases, those with as many segments together."""
         rows = rows[np.argsort(self.order[rows], kind="stable")]
-        cells = np.broadcast_to(self.cells, (len(rows), len(self.cells)))
+        return [self._chains(*each, refinement) for each in self._divided(rows, self.cells)]
+
+    def _divided(self, rows: Integers, bounds: Array) -> Iterator[tuple[Integers, Array, Array]]:
+        """Yield cases with both ends of their cells, (cases, n), those with as many together."""
+        cells = np.broadcast_to(bounds, (len(rows), len(bounds)))
         places = np.stack([f.x for f in self._forces(rows)[1:]], axis=1)
         if self.loads.cases.model.axial_force == "element_midpoint":
-            places = np.full(places.shape, self.cells[-1])
+            places = np.full(places.shape, bounds[-1])
         x = np.sort(np.concatenate([cells, places], axis=1), axis=1)
         real = np.diff(x, axis=1) > 0
         number = real.sum(axis=1)
-        found = []
         for n in np.unique(number):
             which = np.flatnonzero(number == n)
             left = x[which, :-1][real[which]].reshape(len(which), n)
             right = x[which, 1:][real[which]].reshape(len(which), n)
-            found.append(self._chains(rows[which], left, right, refinement))
-        return found
+            yield rows[which], left, right
 
     def _forces(self, rows: Any) -> list[ForceOnBody[Array]]:
         """Return the forces on some bodies; those that do not act stand at the tail."""
@@ -136,10 +162,9 @@ class ManyBeams:
         interval = self.loads.mass_distribution.interval(middle)
         jump = self._jumps(rows, middle)
         if self.exact:
-            at = middle[..., None]
-            m, EI, N = (v[..., 0] for v in self._at(rows, interval, at, jump))
-            return Chains(rows, right - left, m, EI, N, following=self._following(rows))
-        if self.loads.mass_distribution.interpolation == "step":
+            values = self._at(rows, interval, middle[..., None], jump)
+            return self._chain(rows, right - left, _every(values), lambda v: v[..., 0])
+        if self.loads.mass_distribution.interpolation == "step" and self._only_force_varies:
             return self._stepped(rows, left, right, refinement, interval, jump)
         steps = np.linspace(0, 1, refinement + 1)[:-1]
         size = (right - left)[..., None] / refinement
@@ -149,12 +174,32 @@ class ManyBeams:
         def spread(values: Any) -> Any:
             return np.repeat(values, refinement, axis=1)
 
-        m, EI, N = self._at(rows, spread(interval), at, spread(jump))
-        halves = [halved(v).reshape(len(rows), -1) for v in (m, 1 / EI, N)]
+        def average(values: Array) -> Array:
+            return halved(np.broadcast_to(values, at.shape)).reshape(len(rows), -1)
+
         length = np.repeat(spread(size[..., 0]) / 2, 2, axis=1)
-        return Chains(
-            rows, length, halves[0], 1 / halves[1], halves[2], following=self._following(rows)
-        )
+        values = self._at(rows, spread(interval), at, spread(jump))
+        return self._chain(rows, length, values, average)
+
+    def _chain(
+        self, rows: Integers, length: Array, values: Values, average: Callable[[Array], Array]
+    ) -> Chains:
+        """Return chains of segments over which values at points are averaged."""
+        m, N = average(values.mass), average(values.axial_force)
+        EI, more = 1 / average(1 / values.stiffness), {}
+        if self.shear is not None:
+            force, kGA = values.axial_force, values.more["shear_stiffness"]
+            with np.errstate(divide="ignore"):
+                s = 1 / (kGA - force if self.shear.form == "engesser" else kGA)
+            of = {"shear": s, "shear_turn": s * force, "shear_work": s * force**2}
+            of["rotary_inertia"] = values.more["rotary_inertia"]
+            more = {name: average(v) for name, v in of.items()}
+        return Chains(rows, length, m, EI, N, more, self._following(rows))
+
+    @property
+    def _only_force_varies(self) -> bool:
+        """Whether nothing but N varies inside cells of a table that steps."""
+        return self.shear is None or self.shear.form == "haringx"
 
     def _following(self, rows: Integers) -> Array | None:
         """Return the part of the cavitator's drag and of the thrust that turns with the body."""
@@ -177,10 +222,17 @@ class ManyBeams:
         """Divide cells in which only N varies, straight: its weighted means are values of it."""
         steps = (np.arange(refinement)[:, None] + halved(np.array(GAUSS))) / refinement
         at = left[..., None] + (right - left)[..., None] * steps.ravel()
-        m, EI, N = self._at(rows, interval, at, jump)
-        parts = ((right - left) / (2 * refinement), m, EI, N)
-        length, m, EI, N = (_spread(v, at.shape).reshape(len(rows), -1) for v in parts)
-        return Chains(rows, length, m, EI, N, following=self._following(rows))
+        values = self._at(rows, interval, at, jump)
+        N, more = values.axial_force, {}
+        if self.shear is not None:
+            s = 1 / values.more["shear_stiffness"]
+            more = {"shear": s, "shear_turn": s * N, "shear_work": s * _squared(N)}
+            more["rotary_inertia"] = values.more["rotary_inertia"]
+        parts = {"length": (right - left) / (2 * refinement), "N": N, **more}
+        parts |= {"m": values.mass, "EI": values.stiffness}
+        of = {name: _spread(v, at.shape).reshape(len(rows), -1) for name, v in parts.items()}
+        length, m, EI, N = (of.pop(name) for name in ("length", "m", "EI", "N"))
+        return Chains(rows, length, m, EI, N, of, self._following(rows))
 
     def _jumps(self, rows: Integers, middle: Array) -> Array:
         """Return the drag of all forces ahead of the middles of cells, the cavitator's included."""
@@ -191,16 +243,13 @@ class ManyBeams:
         ]
         return np.asarray(drag_ahead(forces, lambda force: middle > force.x))
 
-    def _at(
-        self, rows: Integers, interval: Integers, x: Array, jump: Array
-    ) -> tuple[Array, Array, Array]:
-        """Return m, EI and N at points `x` of intervals, shape (cases, cells, points)."""
+    def _at(self, rows: Integers, interval: Integers, x: Array, jump: Array) -> Values:
+        """Return the properties at points `x` of intervals, shape (cases, cells, points)."""
         masses, how = self.loads.mass_distribution, self.loads.mass_distribution.interpolation
         low = masses.x[interval]
         length = (masses.x[interval + 1] - low)[..., None]
         s = x - low[..., None]
         a, b = (_taken(masses.ends[..., k], rows, interval)[..., None] for k in (0, 1))
-        EIa, EIb = (_taken(self.stiffness[..., k], rows, interval)[..., None] for k in (0, 1))
         total = masses.moments_ahead[0]
         ahead = _taken(total, rows, interval)[..., None]
         a_X = self.loads.a_X[rows, None, None]
@@ -209,10 +258,39 @@ class ManyBeams:
             N = np.broadcast_to(jump[..., None] + a_X * (ahead + after) / 2, x.shape)
         else:
             N = jump[..., None] + a_X * (ahead + mass_within(a, b, length, s, how))
-        if how == "step":
-            return a, EIa, N
         t = s / length
-        return interpolated(a, b, t, how), interpolated(EIa, EIb, t, how), N
+
+        def between(ends: Array, how: Interpolation) -> Array:
+            a, b = (_taken(ends[..., k], rows, interval)[..., None] for k in (0, 1))
+            return a if how == "step" else np.asarray(interpolated(a, b, t, how))
+
+        m, more = a if how == "step" else np.asarray(interpolated(a, b, t, how)), {}
+        if self.shear is not None:
+            kGA, rotary = self.shear.stiffness, self.shear.rotary
+            more["shear_stiffness"] = between(kGA.ends, kGA.interpolation)
+            more["rotary_inertia"] = between(rotary.ends, rotary.interpolation)
+        return Values(m, between(self.stiffness, how), N, more)
+
+    def beyond_shear(self) -> npt.NDArray[np.bool_]:
+        """Tell which cases have an axial force beyond what the stiffness in shear can bear.
+
+        As `beam.checks` has it, at both ends and in the middle of every piece between forces.
+        """
+        found = np.zeros(self.loads.cases.cases, dtype=bool)
+        if self.shear is None:
+            return found
+        with np.errstate(all="ignore"):
+            least = self.shear.stiffness.ends.min(axis=(-2, -1))
+            rows = np.flatnonzero(~(self._largest_force < least))
+        sign = 1.0 if self.shear.form == "engesser" else -1.0
+        for some, left, right in self._divided(rows, self.loads.mass_distribution.x):
+            middle = (left + right) / 2
+            interval = self.loads.mass_distribution.interval(middle)
+            at = np.stack([left, middle, right], axis=-1)
+            values = self._at(some, interval, at, self._jumps(some, middle))
+            bad = values.more["shear_stiffness"] - sign * values.axial_force <= 0
+            found[some] = np.any(bad, axis=(1, 2))
+        return found
 
     def beyond_limits(self) -> npt.NDArray[np.bool_]:
         """Tell which cases have an axial force out of all proportion to the bending stiffness.
@@ -242,8 +320,8 @@ class ManyBeams:
         jump = self._jumps(rows, np.repeat(middle, len(rows), axis=0))
         places = edges[:-1, None] + np.diff(edges)[:, None] * SAMPLES
         at = np.broadcast_to(places, (*interval.shape, len(SAMPLES)))
-        _, EI, N = self._at(rows, interval, at, jump)
-        buckled, tension = waves(N, EI, np.diff(edges))
+        values = self._at(rows, interval, at, jump)
+        buckled, tension = waves(values.axial_force, values.stiffness, np.diff(edges))
         return np.asarray(~((buckled <= MOST_BUCKLED) & (tension <= MOST_TENSION)))
 
 
@@ -251,6 +329,26 @@ def _spread(values: Array, shape: tuple[int, ...]) -> Array:
     """Return values of cells at all places of them."""
     whole = values if values.ndim == len(shape) else values[..., None]
     return np.broadcast_to(whole, shape)
+
+
+def _every(values: Values) -> Values:
+    """Return values with one entry for each point, none shared."""
+    m, EI, N, more = values
+
+    def whole(v: Array) -> Array:
+        return np.broadcast_to(v, N.shape)
+
+    return Values(whole(m), whole(EI), N, {name: whole(v) for name, v in more.items()})
+
+
+def _squared(force: Array) -> Array:
+    """Return weighted means of N^2 on the halves of steps, from those of a straight N, (..., 2k).
+
+    They differ from the squares of the means by -1/16 of the square of the change.
+    """
+    pairs = force.reshape(*force.shape[:-1], -1, 2)
+    change = np.repeat(pairs[..., 1] - pairs[..., 0], 2, axis=-1)
+    return np.asarray(force**2 - change**2 / 16)
 
 
 def _mean(ends: Array) -> Array:
@@ -273,4 +371,7 @@ def sheared_columns(columns: Mapping[str, Array]) -> dict[str, Array]:
             found["shear_stiffness"] = 1 / columns["shear"]
     if "rotary_inertia" in columns:
         found["rotary_inertia_per_length"] = columns["rotary_inertia"]
+    if "shear_turn" in columns:
+        found["force_over_shear"] = columns["shear_turn"]
+        found["force_squared_over_shear"] = columns["shear_work"]
     return found

@@ -27,6 +27,8 @@ _COLUMNS = (
     "axial_stiffness",
     "torsional_stiffness",
     "polar_inertia_per_length",
+    "shear_stiffness",
+    "rotary_inertia_per_length",
 )
 _BURN = ("condition", "burn_fraction")
 
@@ -115,6 +117,10 @@ class ManyCases:
     def burn_fraction(self) -> float | Array:
         """The burn fraction, one for all cases where it does not vary."""
         return self.numbers.get(_BURN, self.condition.burn_fraction)
+
+    def optional_column(self, name: str) -> Array | None:
+        """Return a column that stations may leave out, None where they do."""
+        return None if getattr(self.vehicle.stations, name) is None else self.column(name)
 
     def column(self, name: str, state: str | None = None) -> Array:
         """Return a column of the stations, (rows,), or (cases, rows) where it varies."""

@@ -320,6 +320,11 @@ class Vehicle(Frozen):
             rotary_inertia_per_length=optional(table.rotary_inertia_per_length, self._radial),
         )
 
+    def radial(self, name: str) -> Profile | None:
+        """Return a column of radii or walls, None where the stations leave it out."""
+        column = getattr(self.stations, name)
+        return None if column is None else Profile.of_rows(self.stations.x, column, self._radial)
+
     @property
     def _radial(self) -> Interpolation:
         """How radii and walls run: linear where the other columns are logarithmic."""

@@ -1,9 +1,17 @@
 """Vehicles with shear and rotary inertia: kGA and rho I from the stations, alone and in studies."""
 
+import re
+
 import numpy as np
 import pytest
 
 import antinode as an
+from antinode.study.cases.beams import beams_of
+from antinode.study.cases.bending import chain_of
+from antinode.study.cases.chunks import solve_values
+from antinode.study.cases.reasons import NO_BEAM, failed
+from antinode.study.cases.values import Cases
+from antinode.study.design.points import points_of
 from cli_run import run
 
 
@@ -60,24 +68,83 @@ def test_own_columns_take_their_place(starter):
 
 STUDY = """
 case = "case.toml"
-[[inputs]]
-key = "condition.speed"
-values = ["80 m/s", "100 m/s"]
+inputs = [
+  { key = "condition.speed", low = "60 m/s", high = "130 m/s" },
+  { key = "condition.thrust", low = "0 kN", high = "150 kN" },
+  { key = "mass_per_length", control_points = 2, distribution = "lognormal", sd = 0.1 },
+  { key = "axial_stiffness", control_points = 2, distribution = "lognormal", sd = 1.5 },
+]
+design = { kind = "sobol", number = 16 }
 [solve]
 modes = 3
 """
+VARIANTS = [
+    ("step", "haringx", "follows_body", "exact"),
+    ("step", "engesser", "fixed_direction", "exact"),
+    ("step", "haringx", "follows_body", "element_midpoint"),
+    ("linear", "haringx", "fixed_direction", "exact"),
+    ("log", "engesser", "follows_body", "exact"),
+]
 
 
-@pytest.mark.parametrize("shear_form", ["haringx", "engesser"])
-def test_a_sweep_solves_what_a_single_case_solves(starter, shear_form):
-    text = starter.read_text()
-    choices = f'[model]\ntheory = "timoshenko"\nshear_form = "{shear_form}" #'
-    assert text.count("\n[model] ") == 1
-    starter.write_text(text.replace("\n[model] ", f"\n{choices}"))
-    (starter.parent / "study.toml").write_text(STUDY)
-    found = an.sweep(an.load_study(starter.parent / "study.toml"))
-    for k, speed in enumerate((80, 100)):
-        case = an.load_case(starter, [f"condition.speed={speed}"])
-        single = an.natural_frequencies(case, 3).frequencies_hz
-        swept = np.asarray(found["frequency_hz"]).reshape(2, -1)[k, :3]
-        assert swept == pytest.approx(single, rel=1e-5)
+def study_of(starter, interpolation, shear_form, end_force, axial_force):
+    """A study of the starter with these choices; its shear goes with EA."""
+    text = re.sub(
+        r"\ninterpolation = .*", f'\ninterpolation = "{interpolation}"', starter.read_text()
+    )
+    text = re.sub(r"\n(end_force|theory) = .*", "", text)
+    choices = {"theory": "timoshenko", "shear_form": shear_form, "axial_force": axial_force}
+    lines = [f'{key} = "{word}"' for key, word in (choices | {"end_force": end_force}).items()]
+    starter.write_text(text.replace("\n[model] ", "\n[model]\n" + "\n".join(lines) + "\n#"))
+    path = starter.parent / "study.toml"
+    path.write_text(STUDY)
+    return an.load_study(path)
+
+
+@pytest.mark.parametrize("variant", VARIANTS, ids="-".join)
+def test_a_sweep_solves_what_a_single_case_solves(starter, variant):
+    study = study_of(starter, *variant)
+    points = points_of(study)
+    values = points.values(0)
+    found = solve_values(points, values)
+    cases = Cases(study, points.variables, values)
+    assert not np.any(failed(found["reason"]))
+    for k in range(len(values)):
+        single = an.solve_modes(cases.case(k), 3, families=("bending",), tolerance=1e-10)
+        modes = [m for m in single.modes if m.number]
+        hz = np.array([m.frequency_hz for m in modes])
+        off = np.abs(found["frequency_hz"][k] - hz)
+        assert np.all(off <= found["error_hz"][k])
+        assert np.all(found["error_hz"][k] <= 2e-6 * hz)
+        effect = np.array([m.effect_of_shear for m in modes])
+        assert found["effect_of_shear"][k] == pytest.approx(effect, rel=1e-3)
+    assert "model_error" not in found
+
+
+def test_chains_of_a_sweep_are_those_of_single_cases(starter):
+    """Averages of s, sN and sN^2 over halves of steps, not products of averages."""
+    study = study_of(starter, "step", "haringx", "follows_body", "exact")
+    points = points_of(study)
+    values = points.values(0)[:4]
+    cases = Cases(study, points.variables, values)
+    for chains in beams_of(cases).chains(np.arange(4), 2):
+        for k, row in enumerate(chains.rows.tolist()):
+            single = cases.case(row).beam().chain("bending", 2)
+            swept = chain_of(chains, k)
+            assert swept.columns.keys() == single.columns.keys()
+            for name, column in single.columns.items():
+                assert swept.columns[name] == pytest.approx(column, rel=1e-14), name
+    s, N, work = (swept.columns[name] for name in ("shear", "axial_force", "shear_work"))
+    assert np.max(np.abs(s * N**2 / work - 1)) > 1e-6
+
+
+def test_an_axial_force_beyond_the_shear_stiffness_has_no_beam(starter):
+    study = study_of(starter, "step", "engesser", "follows_body", "exact")
+    points = points_of(study)
+    values = points.values(0)[:4]
+    values[1:3, -2:] = 1e-6  # of EA: kGA below N
+    found = solve_values(points, values)
+    assert found["reason"].tolist() == [0, NO_BEAM, NO_BEAM, 0]
+    cases = Cases(study, points.variables, values)
+    with pytest.raises(an.InputError, match="N < kGA in Engesser's form"):
+        cases.case(1).beam()

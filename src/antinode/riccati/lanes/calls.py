@@ -143,13 +143,14 @@ def _whole(chains: Chains) -> tuple[Array, ...]:
         return values if values.flags.c_contiguous else np.ascontiguousarray(values)
 
     m, stiffness, N = (whole(values) for values in chains.arrays[1:])
-    more = 3 * (_NO_MORE,) if chains.more is None else map(np.ascontiguousarray, _more(chains.more))
+    more = 5 * (_NO_MORE,) if chains.more is None else map(np.ascontiguousarray, _more(chains.more))
     return np.ascontiguousarray(chains.length), m, stiffness, N, *more
 
 
 def _more(columns: Mapping[str, Array]) -> tuple[Array, ...]:
-    """Return s, rotary inertia and foundation of many chains."""
-    return columns["shear"], columns["rotary_inertia"], columns["foundation"]
+    """Return s, sN, sN^2, rotary inertia and foundation; sN and sN^2 without columns by default."""
+    names = "shear", "shear_turn", "shear_work", "rotary_inertia", "foundation"
+    return tuple(columns.get(name, _NO_MORE) for name in names)
 
 
 def _own(chains: Chains) -> Kept[Own]:
@@ -185,7 +186,7 @@ def _weights(chains: Chains, below: int, roots: int) -> Array:
         if chains.more is not None:
             columns |= {name: np.mean(values, axis=0) for name, values in chains.more.items()}
             s = columns["shear"]
-            columns |= {"shear_turn": s * N, "shear_work": s * N**2}
+            columns = {"shear_turn": s * N, "shear_work": s * N**2} | columns
         weights = _squares(Chain(chains.law, h, columns, chains.left, chains.right), below, roots)
     return none if weights is None or not np.all(np.isfinite(weights)) else weights
 

@@ -48,7 +48,7 @@ ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     ),
     "solve_rows": (
         rows.solve_rows,
-        (8 * (_f2,), _i, _kept_chain, _task, _warmth, _f2, _lanes, _search, _found),
+        (10 * (_f2,), _i, _kept_chain, _task, _warmth, _f2, _lanes, _search, _found),
     ),
     "certify_rows": (
         rows.certify_rows,

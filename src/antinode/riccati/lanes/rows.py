@@ -126,17 +126,23 @@ def _take_row(length, mass, stiffness, force, chain):
 
 
 @compiled
-def _take_more(shear, rotary, ground, N, own):
-    """Set what segments have besides; tell whether all is finite, and in its range."""
-    valid, n = 0, own.shape[1]
+def _take_more(shear, turn, work, rotary, ground, N, own):
+    """Set what segments have besides; tell whether all is finite, and in its range.
+
+    Without columns of their own, sN and sN^2 are products of the segment's s and N.
+    """
+    valid, n, averaged = 0, own.shape[1], len(turn) > 0
     for k in range(n):
-        s, turn = shear[k], shear[k] * N[k]
-        own[SHEAR, k], own[SHEAR_TURN, k], own[SHEAR_WORK, k] = s, turn, turn * N[k]
+        s = shear[k]
+        along = turn[k] if averaged else s * N[k]
+        own[SHEAR, k], own[SHEAR_TURN, k] = s, along
+        own[SHEAR_WORK, k] = work[k] if averaged else along * N[k]
         own[ROTARY_INERTIA, k], own[GROUND, k] = rotary[k], ground[k]
-        valid += 1 if s >= 0.0 and s < np.inf and turn > -1.0 else 0
+        valid += 1 if s >= 0.0 and s < np.inf and along > -1.0 and along < np.inf else 0
+        valid += 1 if abs(own[SHEAR_WORK, k]) < np.inf else 0
         valid += 1 if rotary[k] >= 0.0 and rotary[k] < np.inf else 0
         valid += 1 if ground[k] >= 0.0 and ground[k] < np.inf else 0
-    return valid == 3 * n
+    return valid == 4 * n
 
 
 @compiled
@@ -145,7 +151,7 @@ def solve_rows(given, first, chain, task, warmth, table, lanes, search, found):
 
     Each starts from the roots of its neighbour, the row solved before.
     """
-    length, mass, stiffness, force, shear, rotary, ground, following = given
+    length, mass, stiffness, force, shear, turn, work, rotary, ground, following = given
     neighbour, current, quotient = warmth.neighbour, warmth.omega2, warmth.quotient
     for row in range(first, len(mass)):
         h, m, K, N = length[row if len(length) > 1 else 0], mass[row], stiffness[row], force[row]
@@ -154,7 +160,9 @@ def solve_rows(given, first, chain, task, warmth, table, lanes, search, found):
             continue
         _take_row(h, m, K, N, chain)
         s, inertia = shear[row if len(shear) > 1 else 0], rotary[row if len(rotary) > 1 else 0]
-        if not _take_more(s, inertia, ground[row if len(ground) > 1 else 0], N, chain.more):
+        along, twice = turn[row if len(turn) > 1 else 0], work[row if len(work) > 1 else 0]
+        bed = ground[row if len(ground) > 1 else 0]
+        if not _take_more(s, along, twice, inertia, bed, N, chain.more):
             found.reason[row] = INVALID
             continue
         if warmth.weights.shape[1]:

@@ -56,7 +56,6 @@ def beams_of(cases: Cases) -> CaseBeams:
     """Return the beams of some cases."""
     reason = np.where(cases.outside(), OUT_OF_RANGE, 0)
     arrays = all(v.kind == "time" or is_vectorised(v.keys) for v in cases.variables)
-    arrays = arrays and cases.study.case.model.theory == "euler_bernoulli"
     return _on_arrays(cases, reason) if arrays else _one_by_one(cases, reason)
 
 
@@ -67,7 +66,9 @@ def _on_arrays(cases: Cases, reason: Integers) -> CaseBeams:
     reason = np.where(reason == 0, loads.refusals.code, reason)
     with np.errstate(all="ignore"):
         far = beams.beyond_limits()
+        soft = beams.beyond_shear()
     reason = np.where(far & (reason == 0), BEYOND_LIMITS, reason)
+    reason = np.where(soft & (reason == 0), NO_BEAM, reason)
     return CaseBeams(reason, loads.numbers, _doubts(loads), beams.exact, beams.chains)
 
 

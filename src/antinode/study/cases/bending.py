@@ -56,6 +56,9 @@ class Eigenvalues:
         on where it is positive. 0 in families that it does not act on.
     lowest_diverges : array of bool, shape (cases,)
         Whether the mode that is counted as rigid rotation diverges in net tension.
+    effect_of_shear : array, shape (cases, modes)
+        What shear and rotary inertia do to each frequency, solved, relative; NaN where they are not
+        solved, or where a mode of either theory has no frequency.
     """
 
     omega2: Array
@@ -64,15 +67,16 @@ class Eigenvalues:
     shapes: Array
     net_force: Array
     lowest_diverges: npt.NDArray[np.bool_]
+    effect_of_shear: Array
 
 
 def nothing_solved(study: Study, reason: Integers, points: int) -> Eigenvalues:
     """Return eigenvalues that are all unknown yet."""
     shape = len(reason), study.solve.modes
-    omega2, error = np.full((2, *shape), np.nan)
+    omega2, error, effect = np.full((3, *shape), np.nan)
     shapes = np.full((*shape, points), np.nan)
     none = np.zeros(len(reason))
-    return Eigenvalues(omega2, error, reason.copy(), shapes, none, none.astype(bool))
+    return Eigenvalues(omega2, error, reason.copy(), shapes, none, none.astype(bool), effect)
 
 
 def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
@@ -93,9 +97,19 @@ def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
         out.net_force[at] = net_force(chains)
         out.lowest_diverges[at] = lowest_diverges(chains, omega2, out.net_force[at])
         out.error[at] = error + np.abs(omega2) * share * weight[at, None]
+        if chains.more and "effect_of_shear" in study.outputs:
+            rigid, *_ = solve_free(chains.rigid, study.solve.modes)
+            out.effect_of_shear[at] = _effect(omega2, rigid)
         if points:
             out.shapes[at] = _shapes(chains, omega2, out.reason[at], x)
     return out
+
+
+def _effect(omega2: Array, rigid: Array) -> Array:
+    """Return the relative change of frequencies from those of Euler-Bernoulli, NaN without them."""
+    with np.errstate(all="ignore"):
+        effect = np.sqrt(omega2 / rigid) - 1
+    return np.where((omega2 > 0) & (rigid > 0), effect, np.nan)
 
 
 def _weight(study: Study, beams: CaseBeams, rows: Integers) -> Array:

@@ -54,6 +54,7 @@ def solve_values(points: Points, values: Array) -> Arrays:
     loaded = found.reason < OUT_OF_RANGE
     scalars = {name: np.where(loaded, values, np.nan) for name, values in beams.scalars.items()}
     every = scalars | _of_modes(found) | {"model_error": shear}
+    every["effect_of_shear"] = found.effect_of_shear
     out |= {name: every[name] for name in study.outputs}
     if points.tracked:
         out["shape"] = found.shapes
@@ -72,17 +73,17 @@ def _every_family(cases: Cases, beams: CaseBeams, points: int) -> tuple[Eigenval
         else:
             families.append(solve_alone(cases, beams, points, family))
     reason = np.max([f.reason for f in families], axis=0)
-    omega2, error, shapes = (
+    omega2, error, shapes, effect = (
         np.concatenate([getattr(f, name) for f in families], axis=1)
-        for name in ("omega2", "error", "shapes")
+        for name in ("omega2", "error", "shapes", "effect_of_shear")
     )
     names = cases.study.solve.families
     shear = [model_errors(cases, beams, *each) for each in zip(names, families, strict=True)]
     bad = failed(reason)
-    omega2[bad], error[bad] = np.nan, np.nan
+    omega2[bad], error[bad], effect[bad] = np.nan, np.nan, np.nan
     force = np.sum([f.net_force for f in families], axis=0)
     lowest = np.any([f.lowest_diverges for f in families], axis=0)
-    found = Eigenvalues(omega2, error, reason, shapes, force, lowest)
+    found = Eigenvalues(omega2, error, reason, shapes, force, lowest, effect)
     return found, np.where(bad[:, None], np.nan, np.concatenate(shear, axis=1))
 
 

@@ -37,11 +37,12 @@ _ENTRIES = 1_000_000  # of the weights that are held at once
 def model_errors(cases: Cases, beams: CaseBeams, family: FamilyName, found: Eigenvalues) -> Array:
     """Return the first-order effect on every frequency of a family, relative, (cases, modes).
 
-    NaN where a mode diverges, and in families and cases that have none.
+    NaN where a mode diverges, in families and cases that have none, and where the law has them.
     """
     effect = np.full(found.omega2.shape, np.nan)
     rows = np.flatnonzero(~failed(found.reason))
-    if FAMILIES[family].rotary and len(rows):
+    left_out = cases.study.case.model.theory == "euler_bernoulli"
+    if FAMILIES[family].rotary and left_out and len(rows):
         with np.errstate(all="ignore"):
             _estimate(_Bodies(cases, np.asarray(beams.scalars["mass"])), beams, found, rows, effect)
     return effect

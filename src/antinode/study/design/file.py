@@ -53,6 +53,11 @@ MODE_OUTPUTS = {
         "from the shapes of some cases of each chunk: over wide ranges of loads up to 15 % of "
         "itself off what the case alone tells",
     ),
+    "effect_of_shear": (
+        "1",
+        "relative effect of shear and rotary inertia, solved: f/f_EB - 1 at the same axial force; "
+        "NaN where the theory leaves them out",
+    ),
     "omega2": ("rad^2/s^2", "eigenvalue"),
     "growth_rate_per_s": ("1/s", "growth rate of a divergent mode; NaN where omega2 >= 0"),
 }
@@ -61,6 +66,7 @@ OutputName = Literal[
     "frequency_hz",
     "error_hz",
     "model_error",
+    "effect_of_shear",
     "omega2",
     "growth_rate_per_s",
     "sigma",
@@ -227,7 +233,8 @@ class _Choices(Frozen):
     outputs: tuple[OutputName, ...] = Field(
         default=("frequency_hz", "error_hz", "model_error"),
         min_length=1,
-        description="what is kept of every case",
+        description="what is kept of every case; by default frequencies, their errors, and what "
+        "shear does: effect_of_shear where the theory solves it, else model_error",
     )
     solve: StudySolve = Field(default=StudySolve(), description="what to solve, and how well")
     run: Run = Field(default=Run(), description="how the work is divided")
@@ -245,6 +252,20 @@ class Study(_Choices):
     """A case, and what of it varies."""
 
     case: Case = Field(description="what the inputs are changed in")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _keep_what_shear_does(cls, data: Any) -> Any:
+        if not isinstance(data, dict) or "outputs" in data:
+            return data
+        case = data.get("case")
+        effect = shear_output(case) if isinstance(case, Case) else "model_error"
+        return data | {"outputs": ("frequency_hz", "error_hz", effect)}
+
+
+def shear_output(case: Case) -> OutputName:
+    """Return the output that tells what shear does: solved, or estimated where it is left out."""
+    return "effect_of_shear" if case.model.theory == "timoshenko" else "model_error"
 
 
 def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
@@ -266,6 +287,8 @@ def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
     tables, where = read_beside_case(path, assignments, "a study file")
     file = validate(StudyFile, tables, where)
     kept: dict[str, Any] = {k: getattr(file, k) for k in _Choices.model_fields}
+    if "outputs" not in file.model_fields_set:
+        del kept["outputs"]
     if file.design.table is not None:
         if file.inputs or file.design.kind != "zip":
             say = "leave out [[inputs]], and write kind = 'zip'"

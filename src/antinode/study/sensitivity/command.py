@@ -17,7 +17,7 @@ from antinode.show.outcome import check_plot, draw, print_json
 from antinode.show.printing import fitting, new_table, show_warnings
 from antinode.study.design.file import Study, StudyInput, load_study
 from antinode.study.progress import cases_progress, end_progress
-from antinode.study.sweep.report import shear_text, warning_texts
+from antinode.study.sweep.report import by_shear, warning_texts
 from antinode.text import counted, short
 from antinode.vehicle.case import load_case
 
@@ -123,7 +123,7 @@ def _bands(result: SensitivityResult, kept: Sequence[int]) -> Table:
     table = new_table(*(_BANDS[k] for k in kept))
     for m in result.modes:
         numbers = (f"{v:.5g}" for v in (m.nominal, m.mean, m.sd, *m.band))
-        cells = (m.name, *numbers, shear_text(m.model_error))
+        cells = (m.name, *numbers, by_shear(m.model_error, m.effect_of_shear))
         table.add_row(*(cells[k] for k in kept))
     return table
 

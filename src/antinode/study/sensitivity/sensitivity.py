@@ -9,7 +9,7 @@ the inputs. Local: derivatives at the case itself, from the mode shapes, in % pe
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,8 +20,9 @@ from antinode.arrays import Array
 from antinode.beam.families import FamilyName
 from antinode.errors import AntinodeError, ComputationError, InputError
 from antinode.modes.hertz import hertz
+from antinode.modes.result import null
 from antinode.study.cases.chunks import mode_names
-from antinode.study.design.file import Study
+from antinode.study.design.file import Study, shear_output
 from antinode.study.design.points import Points, points_of
 from antinode.study.design.variables import Variable
 from antinode.study.eigenvalues import eigenvalues_of, sufficient_refinement
@@ -54,8 +55,9 @@ class ModeSensitivity:
         Derivative at the case by each input [Hz for each SI unit]; NaN where there is none.
     elasticity : array
         The same in % per %.
-    model_error : float
-        The largest first-order effect of shear and rotary inertia among the cases, relative.
+    model_error, effect_of_shear : float
+        The largest effect of shear and rotary inertia among the cases, relative: estimated where
+        the theory leaves them out, or solved; the other one is NaN.
     used : int
         Samples that the indices are made of: those whose cases all have this frequency.
     without : int
@@ -71,6 +73,7 @@ class ModeSensitivity:
     slope: Array
     elasticity: Array
     model_error: float
+    effect_of_shear: float
     used: int
     without: int
 
@@ -123,7 +126,8 @@ class SensitivityResult:
             "mean_hz": m.mean,
             "sd_hz": m.sd,
             "band_hz": list(m.band),
-            "model_error": m.model_error,
+            "model_error": null(m.model_error),
+            "effect_of_shear": null(m.effect_of_shear),
             "samples_used": m.used,
             "cases_without_frequency": m.without,
             "inputs": [
@@ -179,7 +183,7 @@ def sensitivity(
     if number < 8:
         raise InputError(f"{number} samples are too few; take 1024")
     design = study.design.model_copy(update={"kind": "saltelli", "number": number, "table": None})
-    outputs = tuple(dict.fromkeys(("frequency_hz", "model_error", *study.outputs)))
+    outputs = tuple(dict.fromkeys(("frequency_hz", shear_output(study.case), *study.outputs)))
     made = study.model_copy(update={"design": design, "outputs": outputs})
     points = points_of(made)
     data = sweep(
@@ -195,11 +199,12 @@ def sensitivity(
 
 def _result(study: Study, points: Points, data: xarray.Dataset, number: int) -> SensitivityResult:
     """Evaluate the cases of a study, so many samples of each arrangement."""
-    hz, effect = np.asarray(data["frequency_hz"]), np.asarray(data["model_error"])
+    shear = shear_output(study.case)
+    hz, effect = np.asarray(data["frequency_hz"]), np.asarray(data[shear])
     _check_known(hz[: 2 * number])
     slopes = local_slopes(study, points)
     modes = [
-        _mode(points, name, (hz[:, k], effect[:, k]), number, slopes)
+        _mode(points, name, hz[:, k], {shear: _farthest(effect[:, k])}, number, slopes)
         for k, name in enumerate(mode_names(study))
     ]
     left_out = tuple(_left_out(modes, hz, number))
@@ -247,12 +252,12 @@ def _left_out(modes: list[ModeSensitivity], hz: Array, number: int) -> Iterator[
 def _mode(
     points: Points,
     name: str,
-    solved: tuple[Array, Array],
+    hz: Array,
+    shear: Mapping[str, float],
     number: int,
     slopes: dict[str, tuple[float, Array]],
 ) -> ModeSensitivity:
-    """Evaluate one mode, from its frequencies and the effect of shear on them."""
-    hz, effect = solved
+    """Evaluate one mode, from its frequencies and the largest effect of shear on them."""
     known = np.isfinite(hz)
     both = hz[: 2 * number]
     both = both[np.isfinite(both)]
@@ -268,10 +273,15 @@ def _mode(
         indices=sobol_indices(hz, len(points.variables)),
         slope=slope,
         elasticity=slope * start / nominal,
-        model_error=max(effect[np.isfinite(effect)].tolist(), key=abs, default=math.nan),
+        model_error=shear.get("model_error", math.nan),
+        effect_of_shear=shear.get("effect_of_shear", math.nan),
         used=int(np.count_nonzero(known.reshape(-1, number).all(axis=0))),
         without=int(np.count_nonzero(~known)),
     )
+
+
+def _farthest(effect: Array) -> float:
+    return max(effect[np.isfinite(effect)].tolist(), key=abs, default=math.nan)
 
 
 def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]:

@@ -87,8 +87,11 @@ def _range(values: xarray.DataArray) -> dict[str, float]:
 def _ranges(dataset: xarray.Dataset) -> list[dict[str, Any]]:
     """Return what is known of every mode: its frequencies, and how far they may be off."""
     names = [str(name) for name in dataset["mode"].values]
-    hz, error, effect = (
-        _extent(dataset, name) for name in ("frequency_hz", "error_hz", "model_error")
+    outputs = "frequency_hz", "error_hz", "model_error", "effect_of_shear"
+    hz, error, *effects = (_extent(dataset, name) for name in outputs)
+    estimated, solved = (
+        [_null(_farther(*ends)) for ends in zip(effect.least, effect.largest, strict=True)]
+        for effect in effects
     )
     return [
         {
@@ -98,7 +101,8 @@ def _ranges(dataset: xarray.Dataset) -> list[dict[str, Any]]:
             "mean_hz": _null(hz.mean[k]),
             "largest_hz": _null(hz.largest[k]),
             "largest_error_hz": _null(error.largest[k]),
-            "largest_model_error": _null(_farther(effect.least[k], effect.largest[k])),
+            "largest_model_error": estimated[k],
+            "largest_effect_of_shear": solved[k],
         }
         for k, name in enumerate(names)
     ]
@@ -193,18 +197,24 @@ def _modes_table(data: dict[str, Any], kept: Sequence[int]) -> Table:
     table = new_table(*(_HEADINGS[k] for k in kept))
     for m in data["modes"]:
         shown = ["" if m[key] is None else f"{m[key]:.6g}" for key in _RANGE]
-        error, shear = m["largest_error_hz"], m["largest_model_error"]
-        shown += ["" if error is None else f"{error:.1e}", shear_text(shear)]
+        error = m["largest_error_hz"]
+        shear = by_shear(m["largest_model_error"], m["largest_effect_of_shear"])
+        shown += ["" if error is None else f"{error:.1e}", shear]
         cells = (m["name"], str(m["cases"]), *shown)
         table.add_row(*(cells[k] for k in kept))
     return table
 
 
-def shear_text(effect: float | None) -> str:
-    """Write the largest effect of shear; one that leaves nothing of a frequency is no number."""
-    if effect is None or not np.isfinite(effect):
+def by_shear(estimated: float | None, solved: float | None) -> str:
+    """Write the largest effect of shear on a mode, solved or else estimated.
+
+    An estimate that leaves nothing of a frequency is no number.
+    """
+    if solved is not None and np.isfinite(solved):
+        return percent(solved)
+    if estimated is None or not np.isfinite(estimated):
         return ""
-    return "past buckling" if shear_buckles(effect) else percent(effect)
+    return "past buckling" if shear_buckles(estimated) else percent(estimated)
 
 
 _RANGE = ("least_hz", "mean_hz", "largest_hz")
