@@ -12,7 +12,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .beam.attachments import Dashpot, Joint, PointMass, Spring
+    from .beam.attachments import Dashpot, Joint, PointFeedback, PointMass, Spring
     from .beam.beam import Beam
     from .beam.ends import Ends
     from .beam.file import BeamFile, load_beam
@@ -59,6 +59,7 @@ _HOME = {
     "Material": "beam.sections.material",
     "Section": "beam.sections.section",
     "drawn_beam": "beam.sections.drawn",
+    "PointFeedback": "beam.attachments",
     "PointMass": "beam.attachments",
     "Spring": "beam.attachments",
     "load_beam": "beam.file",
@@ -133,6 +134,7 @@ __all__ = [
     "Model",
     "OperatingCondition",
     "Output",
+    "PointFeedback",
     "PointMass",
     "Section",
     "Spring",

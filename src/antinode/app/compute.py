@@ -106,7 +106,9 @@ def full_answer(state: State) -> Answer:
 
     def compute() -> Answer:
         quick, solve = quick_answer(state), state.problem.solve
-        result = solve_modes(quick.beam, solve.modes, tolerance=solve.tolerance, unloaded=True)
+        result = solve_modes(
+            quick.beam, solve.modes, tolerance=solve.tolerance, unloaded=True, damping="none"
+        )
         answer = Answer(quick.problem, quick.beam, _exact(quick.quick, result), result)
         answer.__dict__["characteristic"] = quick.characteristic
         return answer

@@ -157,6 +157,7 @@ _WORDS = {
     "springs": "spring",
     "joints": "joint",
     "dashpots": "dashpot",
+    "point_feedbacks": "feedback",
     "point_forces": "force",
     "roll_angles": "roll angle",
 }

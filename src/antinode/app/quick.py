@@ -75,7 +75,7 @@ def quick_modes(beam: Beam, modes: int) -> Quick:
 
 
 def _full_modes(beam: Beam, modes: int) -> Quick:
-    result = solve_modes(beam, modes, tolerance=TOLERANCE, families=[QUICK_FAMILY])
+    result = solve_modes(beam, modes, tolerance=TOLERANCE, families=[QUICK_FAMILY], damping="none")
     found = [mode for mode in result.modes if mode.number][:modes]
     states = np.stack([mode.states for mode in found], axis=1)
     error = np.array([mode.error_omega2 for mode in found])

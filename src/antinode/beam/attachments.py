@@ -1,4 +1,4 @@
-"""Point masses, springs, supports and in-line joints of a beam, gathered node by node."""
+"""Point masses, springs, supports, joints, dashpots and feedback of a beam, node by node."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
+from antinode.arguments import numbers
 from antinode.arrays import Array
 from antinode.errors import InputError
 from antinode.riccati.points import Point
@@ -124,7 +126,84 @@ class Dashpot(_Given):
     torsional: float = 0.0
 
 
-Attachment = PointMass | Spring | Joint | Dashpot
+@dataclass(frozen=True)
+class PointFeedback:
+    """A force and a moment at a station that oppose the motion there: not of springs alone.
+
+    With the displacement Y and the turn psi of the section, and their rates, the beam feels::
+
+        force  = -(translational Y + force_of_turn psi)
+                 - (translational_damping Y' + force_of_turn_rate psi')
+        moment = -(moment_of_displacement Y + rotational psi)
+                 - (moment_of_velocity Y' + rotational_damping psi')
+
+    Where `force_of_turn` differs from `moment_of_displacement` no energy stands behind it, and it
+    may drive the beam: linearised forces of a fluid, a control. Any number may have either sign.
+
+    Parameters
+    ----------
+    x : float
+        Station [m].
+    translational : float
+        [N/m].
+    force_of_turn, moment_of_displacement : float
+        [N] (per rad), [N m/m].
+    rotational : float
+        [N m/rad].
+    translational_damping : float
+        [N s/m].
+    force_of_turn_rate, moment_of_velocity : float
+        [N s] (per rad), [N m s/m].
+    rotational_damping : float
+        [N m s/rad].
+    """
+
+    x: float
+    translational: float = 0.0
+    force_of_turn: float = 0.0
+    moment_of_displacement: float = 0.0
+    rotational: float = 0.0
+    translational_damping: float = 0.0
+    force_of_turn_rate: float = 0.0
+    moment_of_velocity: float = 0.0
+    rotational_damping: float = 0.0
+
+    @classmethod
+    def of(
+        cls, x: float, stiffness: npt.ArrayLike, damping: npt.ArrayLike = ((0, 0), (0, 0))
+    ) -> PointFeedback:
+        """Return it by its matrices: ``(force, moment) = -K (Y, psi) - C (Y', psi')``.
+
+        Parameters
+        ----------
+        x : float
+            Station [m].
+        stiffness, damping : array_like, shape (2, 2)
+            K [N/m, N; N, N m] and C [N s/m, N s; N s, N m s].
+        """
+        K, C = numbers("stiffness", stiffness), numbers("damping", damping)
+        for name, matrix in (("stiffness", K), ("damping", C)):
+            if matrix.shape != (2, 2):
+                raise InputError(
+                    f"the point feedback at x = {x:g} m: {name} has the shape {matrix.shape}; "
+                    "(2, 2) is wanted: rows force and moment, columns Y and psi"
+                )
+        return cls(x, *K.ravel().tolist(), *C.ravel().tolist())
+
+    @property
+    def stiffness(self) -> Array:
+        """K, shape (2, 2): rows force and moment, columns Y and psi."""
+        rows = (self.translational, self.force_of_turn)
+        return np.array([rows, (self.moment_of_displacement, self.rotational)])
+
+    @property
+    def damping(self) -> Array:
+        """C, shape (2, 2)."""
+        rows = (self.translational_damping, self.force_of_turn_rate)
+        return np.array([rows, (self.moment_of_velocity, self.rotational_damping)])
+
+
+Attachment = PointMass | Spring | Joint | Dashpot | PointFeedback
 
 
 def _number(kind: type, name: str, value: Any) -> Any:
@@ -158,6 +237,8 @@ def _moves_with_a_side(joint: Joint, item: Attachment) -> bool:
     elif isinstance(item, Spring | Dashpot):
         turns = item.rotational > 0.0 or (isinstance(item, Spring) and item.coupling != 0.0)
         twists, along = item.torsional > 0.0, item.axial > 0.0
+    elif isinstance(item, PointFeedback):
+        turns, twists, along = True, False, False
     else:
         return False
     parted = zip(
@@ -171,12 +252,34 @@ def check_kinds(items: Iterable[object]) -> None:
     for item in items:
         if not isinstance(item, Attachment):
             raise InputError(
-                f"{short(item)} is nothing that a beam carries; give each PointMass, Spring or "
-                "Joint as an argument of its own"
+                f"{short(item)} is nothing that a beam carries; give each PointMass, Spring, "
+                "Joint, Dashpot or PointFeedback as an argument of its own"
             )
         for name, value in vars(item).items():
             if isinstance(value, str | bytes) or not np.isscalar(value):
                 raise InputError(f"the {name_of(item)}: {name} is {short(value)}; give a number")
+
+
+def is_damped(items: Iterable[Attachment], family: FamilyName) -> bool:
+    """Tell whether a dashpot or a feedback acts in a family: its modes are complex then."""
+    entry = FAMILIES[family]
+    dashpots = [item for item in items if isinstance(item, Dashpot)]
+    damped = any(getattr(item, name) for item in dashpots for name in entry.springs)
+    return damped or feeds_back(items, family)
+
+
+def feeds_back(items: Iterable[Attachment], family: FamilyName) -> bool:
+    """Tell whether a feedback acts in a family: there are no undamped modes then."""
+    return FAMILIES[family].rotary and any(isinstance(item, PointFeedback) for item in items)
+
+
+def refuse_feedback(items: Iterable[Attachment], family: FamilyName, what: str) -> None:
+    """Raise InputError if a feedback acts in a family, for something that counts on energies."""
+    if feeds_back(items, family):
+        raise InputError(
+            f"a point feedback acts on the beam, and {what} know nothing of it; solve_modes, or "
+            "the commands modes and beam, give complex modes with it; or remove the feedback"
+        )
 
 
 def on_beam(place: float, x: Array) -> float:
@@ -201,8 +304,10 @@ def check_attachments(
             raise InputError(f"{what} is off the beam, which runs from {x[0]:g} to {x[-1]:g} m")
         for name, value in vars(item).items():
             infinite = isinstance(item, Spring) and value == math.inf and name != "coupling"
-            if not (math.isfinite(value) or infinite) or (value < 0 and name not in signed):
-                raise InputError(f"{what}: {name} is {value:g}; it must be finite and at least 0")
+            free = name in signed or isinstance(item, PointFeedback)
+            if not (math.isfinite(value) or infinite) or (value < 0 and not free):
+                least = "" if free else " and at least 0"
+                raise InputError(f"{what}: {name} is {value:g}; it must be finite{least}")
         if isinstance(item, Spring) and item.coupling and math.inf in lateral(item):
             raise InputError(
                 f"{what}: a coupling beside an infinite stiffness; give translational and "
@@ -259,6 +364,16 @@ _UNITS: dict[type, dict[str, str]] = {
         "axial": "N_s_per_m",
         "torsional": "N_m_s_per_rad",
     },
+    PointFeedback: {
+        "translational": "N_per_m",
+        "force_of_turn": "N",
+        "moment_of_displacement": "N",
+        "rotational": "N_m_per_rad",
+        "translational_damping": "N_s_per_m",
+        "force_of_turn_rate": "N_s",
+        "moment_of_velocity": "N_s",
+        "rotational_damping": "N_m_s_per_rad",
+    },
 }
 
 
@@ -268,17 +383,23 @@ def attachment_dict(item: Attachment) -> dict[str, Any]:
     An infinite stiffness is null, and named under ``holds``.
     """
     values = {name: getattr(item, name) for name in _UNITS[type(item)]}
-    numbers = {
+    plain = {
         f"{name}_{_UNITS[type(item)][name]}": None if value == math.inf else value
         for name, value in values.items()
     }
     held = [name for name, value in values.items() if value == math.inf]
     more = {"holds": held} if isinstance(item, Spring) else {}
-    return {"kind": name_of(item), "x_m": item.x, **numbers, **more}
+    return {"kind": name_of(item), "x_m": item.x, **plain, **more}
 
 
 _SIGNED = ("x", "offset", "coupling")
-_NAMES = {PointMass: "point mass", Spring: "spring", Joint: "joint", Dashpot: "dashpot"}
+_NAMES = {
+    PointMass: "point mass",
+    Spring: "spring",
+    Joint: "joint",
+    Dashpot: "dashpot",
+    PointFeedback: "point feedback",
+}
 
 
 def springs_hold(point: Point) -> tuple[float, tuple[int, ...]]:
@@ -307,7 +428,7 @@ def gather(
 
     Parameters
     ----------
-    attachments : sequence of PointMass, Spring, Joint or Dashpot
+    attachments : sequence of PointMass, Spring, Joint, Dashpot or PointFeedback
         At breakpoints.
     x : array
         Breakpoints [m].
@@ -325,7 +446,11 @@ def gather(
     for item in attachments:
         at.setdefault(int(np.argmin(np.abs(x - item.x))), []).append(item)
     points = {k: _point(k, at[k], FAMILIES[family], acceleration) for k in sorted(at)}
-    return {k: p for k, p in points.items() if p.loads or p.damps or p.holds or p.compliance}
+    return {k: p for k, p in points.items() if _does_something(p)}
+
+
+def _does_something(p: Point) -> bool:
+    return bool(p.loads or p.damps or p.holds or p.compliance or p.feeds_back)
 
 
 def _point(k: int, items: list[Attachment], family: Family, acceleration: float) -> Point:
@@ -334,6 +459,7 @@ def _point(k: int, items: list[Attachment], family: Family, acceleration: float)
     dashpots = [item for item in items if isinstance(item, Dashpot)]
     drag = [sum(getattr(d, name) for d in dashpots) for name in family.springs]
     stiff = [sum(getattr(s, name) for s in springs) for name in family.springs]
+    feedback = [item for item in items if isinstance(item, PointFeedback) and family.rotary]
     finite = [0.0 if math.isinf(stiffness) else stiffness for stiffness in stiff]
     return Point(
         k,
@@ -345,7 +471,16 @@ def _point(k: int, items: list[Attachment], family: Family, acceleration: float)
         compliance=sum(getattr(j, family.joint) for j in joints),
         dashpot=drag[0],
         rotational_dashpot=drag[1] if family.rotary else 0.0,
+        feedback=_matrix([item.stiffness for item in feedback]),
+        feedback_damping=_matrix([item.damping for item in feedback]),
     )
+
+
+def _matrix(matrices: list[Array]) -> tuple[float, float, float, float] | None:
+    """Return the sum of matrices by rows, or None where it is nothing."""
+    total = np.sum(matrices, axis=0) if matrices else np.zeros((2, 2))
+    a, b, c, d = total.ravel().tolist()
+    return (a, b, c, d) if total.any() else None
 
 
 def _mass(masses: list[PointMass], family: Family, acceleration: float) -> dict[str, float]:

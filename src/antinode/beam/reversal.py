@@ -10,7 +10,7 @@ import numpy as np
 
 from antinode.errors import InputError
 
-from .attachments import Attachment, Joint, PointMass, Spring, beside_joints
+from .attachments import Attachment, Joint, PointFeedback, PointMass, Spring, beside_joints
 from .checks import TABLES
 
 if TYPE_CHECKING:
@@ -49,6 +49,14 @@ def _turned(beam: Beam) -> Beam:
             turned = replace(turned, offset=-turned.offset)
         elif isinstance(turned, Spring):
             turned = replace(turned, coupling=-turned.coupling)
+        elif isinstance(turned, PointFeedback):
+            turned = replace(
+                turned,
+                force_of_turn=-turned.force_of_turn,
+                moment_of_displacement=-turned.moment_of_displacement,
+                force_of_turn_rate=-turned.force_of_turn_rate,
+                moment_of_velocity=-turned.moment_of_velocity,
+            )
         items.append(turned)
     return replace(
         beam,

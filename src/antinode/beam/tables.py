@@ -8,7 +8,7 @@ from pydantic import ConfigDict, Field, model_validator
 
 from antinode.inputs.units import Acceleration, Force, Frozen, Length, Mass, Unit
 
-from .attachments import Attachment, Dashpot, Joint, PointMass, Spring
+from .attachments import Attachment, Dashpot, Joint, PointFeedback, PointMass, Spring
 from .axial import AxialLoads, PointForce
 from .rotation import Plane, Rotation
 
@@ -109,6 +109,38 @@ class DashpotTable(Frozen):
         return Dashpot(**vars(self))
 
 
+class PointFeedbackTable(Frozen):
+    """A force and a moment that oppose motion, not of springs alone: `[[beam.point_feedbacks]]`."""
+
+    x: Length = Field(description="station [m]")
+    translational: Annotated[float, Unit("N/m")] = Field(0.0, description="force of Y [N/m]")
+    force_of_turn: Force = Field(0.0, description="force of psi [N]")
+    moment_of_displacement: Force = Field(0.0, description="moment of Y [N m/m]")
+    rotational: Annotated[float, Unit("N m/rad")] = Field(0.0, description="moment of psi [N m]")
+    translational_damping: Annotated[float, Unit("N s/m")] = Field(
+        0.0, description="force of the rate of Y [N s/m]"
+    )
+    force_of_turn_rate: Annotated[float, Unit("N s")] = Field(
+        0.0, description="force of the rate of psi [N s]"
+    )
+    moment_of_velocity: Annotated[float, Unit("N s")] = Field(
+        0.0, description="moment of the rate of Y [N s]"
+    )
+    rotational_damping: Annotated[float, Unit("N m s/rad")] = Field(
+        0.0, description="moment of the rate of psi [N m s]"
+    )
+
+    @model_validator(mode="after")
+    def _check_any(self) -> Self:
+        if not any(value for name, value in vars(self).items() if name != "x"):
+            raise ValueError("all values are 0; give at least one stiffness or damping")
+        return self
+
+    def attachment(self) -> PointFeedback:
+        """Return it as the beam wants it."""
+        return PointFeedback(**vars(self))
+
+
 class PointForceTable(Frozen):
     """An axial force at a station."""
 
@@ -164,7 +196,10 @@ class AttachmentTables(Frozen):
     springs: tuple[SpringTable, ...] = Field((), description="springs and supports to ground")
     joints: tuple[JointTable, ...] = Field((), description="elastic joints in line")
     dashpots: tuple[DashpotTable, ...] = Field(
-        (), description="dampers to ground: for responses, not for undamped modes"
+        (), description="dampers to ground: for responses and complex modes"
+    )
+    point_feedbacks: tuple[PointFeedbackTable, ...] = Field(
+        (), description="forces and moments that oppose motion, of a fluid or a control"
     )
     loads: LoadsTable | None = Field(None, description="axial loads")
     rotation: RotationTable | None = Field(
@@ -172,11 +207,14 @@ class AttachmentTables(Frozen):
     )
 
     def attachments(self) -> list[Attachment]:
-        """Return all masses, springs, joints and dashpots as the beam wants them."""
-        tables: tuple[PointMassTable | SpringTable | JointTable | DashpotTable, ...] = (
+        """Return all masses, springs, joints, dashpots, feedback as the beam wants them."""
+        tables: tuple[
+            PointMassTable | SpringTable | JointTable | DashpotTable | PointFeedbackTable, ...
+        ] = (
             *self.point_masses,
             *self.springs,
             *self.joints,
             *self.dashpots,
+            *self.point_feedbacks,
         )
         return [table.attachment() for table in tables]

@@ -1,7 +1,7 @@
 """Workbooks (XLSX) as the table `[beam]`: stations, ends, attachments and loads, one sheet each.
 
 The sheet `stations` has the columns of a CSV file. `beam` has keys and values; `point_masses`,
-`springs`, `joints`, `dashpots` and `point_forces` have one row each.
+`springs`, `joints`, `dashpots`, `point_feedbacks` and `point_forces` have one row each.
 """
 
 from __future__ import annotations
@@ -54,6 +54,17 @@ ATTACHED = {
         "rotational": "N m s/rad",
         "axial": "N s/m",
         "torsional": "N m s/rad",
+    },
+    "point_feedbacks": {
+        "x": "m",
+        "translational": "N/m",
+        "force_of_turn": "N",
+        "moment_of_displacement": "N",
+        "rotational": "N m/rad",
+        "translational_damping": "N s/m",
+        "force_of_turn_rate": "N s",
+        "moment_of_velocity": "N s",
+        "rotational_damping": "N m s/rad",
     },
     "point_forces": {"x": "m", "force": "N"},
 }

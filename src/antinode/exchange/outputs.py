@@ -102,6 +102,7 @@ def _slender(result: ModalResult) -> tuple[ModalResult, Notes]:
         families=result.families,
         normalisation=result.normalisation,
         unloaded=True,
+        damping="none",
     )
     return solved, (f"{', '.join(used)}: left out of the deck, and of the frequencies it states",)
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from antinode.arguments import ByValue, whole, within
 from antinode.arrays import Array, Integers
+from antinode.beam.attachments import refuse_feedback
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FAMILIES
 from antinode.beam.limits import out_of_range_is_an_error
@@ -68,7 +69,7 @@ class Frequencies(ByValue):
 
     @cached_property
     def _with_shapes(self) -> ModalResult:
-        return solve_modes(self.beam, len(self.omega2), families=(BENDING,))
+        return solve_modes(self.beam, len(self.omega2), families=(BENDING,), damping="none")
 
     @property
     def model_error(self) -> Array:
@@ -105,6 +106,8 @@ def natural_frequencies(
 ) -> Frequencies:
     """Compute the natural frequencies of a beam in bending, certified, without shapes.
 
+    They are undamped: dashpots do nothing to them.
+
     Parameters
     ----------
     problem : Beam or case
@@ -130,6 +133,7 @@ def natural_frequencies(
     modes = whole("modes", modes, 500)
     tolerance = within("tolerance", tolerance, 1e-12, 0.1, " (relative)")
     beam = problem if isinstance(problem, Beam) else _beam_of(problem)
+    refuse_feedback(beam.attachments, BENDING, "undamped frequencies")
     found = _directly(choose(backend), beam, modes, tolerance)
     return found or _by_modes(beam, modes, tolerance, backend)
 
@@ -140,7 +144,9 @@ def _beam_of(problem: HasBeam) -> Beam:
 
 
 def _by_modes(beam: Beam, modes: int, tolerance: float, backend: BackendName) -> Frequencies:
-    result = solve_modes(beam, modes, tolerance=tolerance, families=(BENDING,), backend=backend)
+    result = solve_modes(
+        beam, modes, tolerance=tolerance, families=(BENDING,), backend=backend, damping="none"
+    )
     found = [mode for mode in result.modes if mode.number][:modes]
     return Frequencies(
         np.array([mode.omega2 for mode in found]),

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arguments import ByValue, choice, numbers
-from antinode.arrays import Array
+from antinode.arrays import Array, Complex
 from antinode.beam.attachments import attachment_dict
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FamilyName
@@ -26,7 +26,7 @@ from .hertz import error_hz, error_of_root, growth_rate, hertz
 if TYPE_CHECKING:
     import xarray
 
-Kind = Literal["rigid", "elastic", "divergent", "flutter"]
+Kind = Literal["rigid", "elastic", "divergent", "flutter", "overdamped"]
 Method = Literal["riccati", "tmm"]
 Normalisation = Literal["amplitude", "mass"]
 
@@ -40,13 +40,15 @@ NOT_MODELLED = (
 """What the model of Euler and Bernoulli leaves out; Timoshenko's all but the first."""
 
 
-def not_modelled(beam: Beam) -> tuple[str, ...]:
-    """Return what the model of a beam leaves out."""
+def not_modelled(beam: Beam, damped: bool = False) -> tuple[str, ...]:
+    """Return what the model of a beam leaves out; `damped` where its modes are complex."""
     first = 1 if beam.has_shear else 0
+    solved = {"damping"} if damped else set()
     return tuple(
         words
         for words in NOT_MODELLED[first:]
-        if beam.added_mass_per_length is None or not words.startswith("added mass")
+        if (beam.added_mass_per_length is None or not words.startswith("added mass"))
+        and words not in solved
     )
 
 
@@ -61,9 +63,10 @@ class Mode(ByValue):
         1, 2, ... in order of omega^2; 0 for a rigid mode.
     name : str
         ``"bending 1"``, ``"rigid rotation"``, ...
-    kind : {"rigid", "elastic", "divergent", "flutter"}
+    kind : {"rigid", "elastic", "divergent", "flutter", "overdamped"}
         Divergent where omega^2 < 0: the motion grows instead of vibrating. Flutter where it grows
         while it oscillates, as it may where end forces follow; its twin that decays is elastic.
+        Overdamped where it decays without vibrating: s is real and negative.
     omega2 : float
         [rad^2/s^2]; of an oscillation that grows or decays the square of its circular frequency.
     bracket_omega2 : tuple of float
@@ -90,7 +93,17 @@ class Mode(ByValue):
     unloaded_omega2 : float or None
         omega^2 of the same mode without axial force, where it was asked for.
     states : array, shape (points, 4) or (points, 2)
-        Along `ModalResult.x`: Y, theta, M, Q_y, or X, Q_x, or phi, T.
+        Along `ModalResult.x`: Y, theta, M, Q_y, or X, Q_x, or phi, T; of a complex mode at the
+        instant when its largest displacement is.
+    eigenvalue : complex or None
+        s [1/s] of a complex mode, Im s >= 0; None where modes are real or end forces alone follow.
+    error_per_s : float or None
+        Distance of s to that of the beam as given [1/s].
+    phasors : array of complex or None
+        States of a complex mode: amplitude and phase of the motion ``Re(phasors exp(s t))``.
+    left : array of complex or None
+        Its left eigenvector w along `ModalResult.x`, with ``w^T (2 s M + C) v = 1``: small changes
+        of the matrices move s by ``-w^T (s^2 dM + s dC + dK) v``.
     """
 
     family: FamilyName
@@ -108,6 +121,10 @@ class Mode(ByValue):
     unloaded_omega2: float | None = None
     growth: float = 0.0
     effect_of_shear: float | None = None
+    eigenvalue: complex | None = None
+    error_per_s: float | None = None
+    phasors: Complex | None = field(default=None, repr=False)
+    left: Complex | None = field(default=None, repr=False)
 
     @property
     def by_shear(self) -> float | None:
@@ -117,6 +134,8 @@ class Mode(ByValue):
     @property
     def eigenvalue_per_s(self) -> complex:
         """S of the motion ``exp(s t)``, the one of its pair that has Im s >= 0 [1/s]."""
+        if self.eigenvalue is not None:
+            return self.eigenvalue
         if self.omega2 < 0:
             return complex(math.sqrt(-self.omega2), 0.0)
         return complex(self.growth, math.sqrt(self.omega2))
@@ -135,6 +154,8 @@ class Mode(ByValue):
     @property
     def growth_rate_per_s(self) -> float:
         """Rate at which the motion grows or decays [1/s]; NaN where it only oscillates."""
+        if self.eigenvalue is not None:
+            return self.eigenvalue.real
         return self.growth or growth_rate(self.omega2)
 
     @property
@@ -146,11 +167,15 @@ class Mode(ByValue):
     @property
     def error_hz(self) -> float:
         """Half-width of the interval of frequency that holds the beam's own [Hz]."""
+        if self.error_per_s is not None and self.omega2 >= 0:
+            return self.error_per_s / (2 * math.pi)
         return error_hz(self.omega2, self.error_omega2)
 
     @property
     def error_growth_rate_per_s(self) -> float:
         """The same for the growth rate [1/s]."""
+        if self.error_per_s is not None:
+            return self.error_per_s
         if self.growth:
             return self.error_omega2 / (2 * abs(self.eigenvalue_per_s))
         return error_of_root(-self.omega2, self.error_omega2) if self.omega2 < 0 else math.nan
@@ -246,6 +271,11 @@ class ModalResult(ByValue):
         return any(self.beam.following())
 
     @property
+    def is_complex(self) -> bool:
+        """Whether modes are complex: of dashpots, feedback, or loss."""
+        return any(mode.eigenvalue is not None for mode in self.modes)
+
+    @property
     def families(self) -> tuple[FamilyName, ...]:
         """The families that were solved."""
         return tuple(self.solutions)
@@ -307,7 +337,7 @@ class ModalResult(ByValue):
             "segments": dict(self.segments),
             "warnings": list(self.warnings),
             **_theory(self.beam),
-            "not_modelled": list(not_modelled(self.beam)),
+            "not_modelled": list(not_modelled(self.beam, self.is_complex)),
         }
 
     def to_dataset(self) -> xarray.Dataset:
@@ -336,12 +366,14 @@ def _plus_minus(error: float) -> str:
 
 def _mode_dict(mode: Mode, follows: bool) -> dict[str, Any]:
     s = mode.eigenvalue_per_s
-    of_pair = {
+    of_pair: dict[str, Any] = {
         "eigenvalue_per_s": [s.real, s.imag],
         "damping_ratio": null(mode.damping_ratio),
         "growth_rate_per_s": s.real,
     }
-    return _plain_dict(mode) | (of_pair if follows else {})
+    if mode.error_per_s is not None:
+        of_pair["error_per_s"] = null(mode.error_per_s)
+    return _plain_dict(mode) | (of_pair if follows or mode.eigenvalue is not None else {})
 
 
 def _plain_dict(mode: Mode) -> dict[str, Any]:

@@ -73,14 +73,20 @@ def rigid_rotation(chain: Chain, pivot: float | None = None) -> float:
     the centre of mass where nothing holds the chain.
     """
     nodes = chain.nodes
-    about = _centre_of_mass(chain) if pivot is None else pivot
+    about = centre_of_mass(chain) if pivot is None else pivot
     left, right = chain.following
     turning = -float(chain.axial_force @ chain.length) + right * (nodes[-1] - about) + left * about
+    return float(turning) / rotary_inertia(chain, about)
+
+
+def rotary_inertia(chain: Chain, about: float) -> float:
+    """Return the moment of inertia of a chain about a place [kg m^2]."""
+    nodes = chain.nodes
     middle, dm = (nodes[1:] + nodes[:-1]) / 2, chain.mass * chain.length
     inertia = dm @ ((middle - about) ** 2 + chain.length**2 / 12)
     for p in chain.points:
         inertia += p.mass * (nodes[p.node] + p.offset - about) ** 2 + p.inertia
-    return float(turning / inertia)
+    return float(inertia)
 
 
 def pivot_of(beam: Beam) -> float | None:
@@ -110,12 +116,12 @@ def rigid_state(beam: Beam, chain: Chain, name: str) -> Array:
         return state
     freedoms = beam.freedoms(chain.law.name)
     held = len(freedoms) == 1
-    pivot = -freedoms[0, 0] / freedoms[0, 1] if held else _centre_of_mass(chain)
+    pivot = -freedoms[0, 0] / freedoms[0, 1] if held else centre_of_mass(chain)
     state[:, 0], state[:, 1] = chain.nodes - pivot, 1.0
     return state
 
 
-def _centre_of_mass(chain: Chain) -> float:
+def centre_of_mass(chain: Chain) -> float:
     """Return the centre of all mass of a chain, from its left end [m]."""
     nodes = chain.nodes
     middle, dm = (nodes[1:] + nodes[:-1]) / 2, chain.mass * chain.length

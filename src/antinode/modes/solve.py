@@ -18,6 +18,7 @@ import numpy as np
 
 from antinode.arguments import choice, whole, within
 from antinode.arrays import Array
+from antinode.beam.attachments import feeds_back, is_damped
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.beam.limits import check_tension, out_of_range_is_an_error
@@ -29,6 +30,8 @@ from antinode.text import short
 
 from .backends import Backend, BackendName, choose, for_one
 from .brackets import ROUNDING, cancelling
+from .damped.family import Damping
+from .damped.modes import damped_modes
 from .following import energies_of_modes
 from .naming import name_modes, with_joint_brackets
 from .refinement import NEAR_ZERO, Solved, solve_family
@@ -57,6 +60,7 @@ def solve_modes(
     normalisation: Normalisation = "amplitude",
     unloaded: bool = False,
     backend: BackendName = "auto",
+    damping: Damping = "auto",
 ) -> ModalResult:
     """Compute natural frequencies, modes and internal-force modes of a beam.
 
@@ -79,6 +83,11 @@ def solve_modes(
     backend : {"auto", "numpy", "numba"}
         What solves chain after chain: compiled code, or numpy, which is slower by some milliseconds
         for every hundred segments and mode, and needs no compiler once an install. "auto" is numba.
+    damping : {"auto", "none", "complex"}
+        Complex modes, by eigenvalues s of motion ``exp(s t)``: "auto" in every family in which a
+        dashpot or a feedback acts, "complex" in all, "none" nowhere, as if there were no dashpots.
+        The beam's loss factors count wherever modes are complex, so that "complex" alone has them
+        on a beam without dashpots.
 
     Returns
     -------
@@ -94,12 +103,36 @@ def solve_modes(
     modes = whole("modes", modes, 500, " for each family")
     tolerance = within("tolerance", tolerance, 1e-12, 0.1, " (relative)")
     choice("normalisation", normalisation, Normalisation)
+    choice("damping", damping, Damping)
     solver = solver_of(method, choose(backend))
     beam = beam_of(problem)
     check_tension(beam)
     chosen = beam.families if families is None else _chosen(families)
-    found = _solve_families(beam, chosen, modes, tolerance, solver, method, normalisation, unloaded)
+    damped = [family for family in chosen if _complex(beam, family, damping, method)]
+    found = _solve_families(
+        beam, chosen, modes, tolerance, solver, method, normalisation, unloaded, damped
+    )
     return _with_notes(found, problem)
+
+
+def _complex(beam: Beam, family: FamilyName, damping: Damping, method: Method) -> bool:
+    """Tell whether the modes of a family are complex.
+
+    Raises
+    ------
+    InputError
+        If there are no others, and they were not asked for.
+    """
+    feedback = feeds_back(beam.attachments, family)
+    if feedback and (damping == "none" or method == "tmm"):
+        asked = "damping = 'none'" if damping == "none" else "method = 'tmm'"
+        raise InputError(
+            f"a point feedback acts on the beam, and {asked} asks for modes that know nothing of "
+            "it; leave that out for complex modes, or remove the feedback"
+        )
+    if method == "tmm":
+        return False
+    return damping == "complex" or (damping == "auto" and is_damped(beam.attachments, family))
 
 
 def beam_of(problem: Beam | HasBeam) -> Beam:
@@ -129,6 +162,7 @@ def _solve_families(
     method: Method,
     normalisation: Normalisation,
     unloaded: bool,
+    damped: Sequence[FamilyName],
 ) -> ModalResult:
     """Solve family after family, and gather what was found."""
     grid = output_grid(beam, modes)
@@ -138,6 +172,15 @@ def _solve_families(
     warnings: list[str] = []
     certificates: dict[FamilyName, Mapping[str, Any]] = {}
     for family in families:
+        if family in damped:
+            own = damped_modes(
+                beam, family, modes, tolerance, solver.backend, grid, normalisation, lossy=True
+            )
+            found += own.modes
+            solutions[family], segments[family] = own.solution, own.segments
+            warnings += own.warnings
+            certificates[family] = own.certificate
+            continue
         solved = solve_family(beam, family, modes, tolerance, solver)
         named, solutions[family] = _modes_of(
             solver.backend, beam, solved, grid, modes, normalisation
@@ -281,10 +324,17 @@ def _compare_unloaded(
     solver: Solver, beam: Beam, found: list[Mode], modes: int, tolerance: float
 ) -> list[Mode]:
     """Attach to every mode its omega^2 without axial force: its own where N does not matter."""
-    moved = {m.family for m in found if FAMILIES[m.family].law.has_axial_force}
-    free = {name: _unloaded(solver, beam, name, found, modes, tolerance) for name in moved}
+    plain = [m for m in found if m.eigenvalue is None]
+    if not plain:
+        return found
+    moved = {m.family for m in plain if FAMILIES[m.family].law.has_axial_force}
+    free = {name: _unloaded(solver, beam, name, plain, modes, tolerance) for name in moved}
     return [
-        replace(m, unloaded_omega2=free[m.family].get(m.name) if m.family in free else m.omega2)
+        m
+        if m.eigenvalue is not None
+        else replace(
+            m, unloaded_omega2=free[m.family].get(m.name) if m.family in free else m.omega2
+        )
         for m in found
     ]
 
@@ -300,7 +350,7 @@ def _compare_rigid_in_shear(
     compared = []
     for family, entry in FAMILIES.items():
         own = [mode for mode in found if mode.family == family]
-        if own and entry.used(beam) != entry.used(plain):
+        if own and own[0].eigenvalue is None and entry.used(beam) != entry.used(plain):
             solved = solve_family(plain, family, modes, tolerance, solver)
             names = name_modes(plain, family, solved.eigenvalues)
             values = zip(names, solved.eigenvalues, strict=True)

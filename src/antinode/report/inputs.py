@@ -9,7 +9,15 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 from pydantic import BaseModel
 
-from antinode.beam.attachments import Attachment, Dashpot, Joint, PointMass, Spring, name_of
+from antinode.beam.attachments import (
+    Attachment,
+    Dashpot,
+    Joint,
+    PointFeedback,
+    PointMass,
+    Spring,
+    name_of,
+)
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES
 from antinode.beam.file import ALL_COLUMNS, BeamFile
@@ -267,5 +275,22 @@ _KINDS: tuple[tuple[type, str, tuple[str, ...], tuple[str, ...]], ...] = (
             "torsional [N m s/rad]",
         ),
         ("translational", "rotational", "axial", "torsional"),
+    ),
+    (
+        PointFeedback,
+        "Forces and moments that oppose motion: of the displacement Y and the turn psi.",
+        ("force, Y [N/m]", "force, psi [N]", "moment, Y [N]", "moment, psi [N m]"),
+        ("translational", "force_of_turn", "moment_of_displacement", "rotational"),
+    ),
+    (
+        PointFeedback,
+        "The same of their rates.",
+        ("force, Y [N s/m]", "force, psi [N s]", "moment, Y [N s]", "moment, psi [N m s]"),
+        (
+            "translational_damping",
+            "force_of_turn_rate",
+            "moment_of_velocity",
+            "rotational_damping",
+        ),
     ),
 )

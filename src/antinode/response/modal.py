@@ -115,7 +115,9 @@ def solved_modes(beam: Beam, family: FamilyName, modes: int) -> ModalResult:
             f"{modes} modes lie in the range of frequencies; at most {MOST_MODES} are computed: "
             "lower its end"
         )
-    return solve_one(beam, max(modes, 1), families=[family], normalisation="mass", tolerance=1e-8)
+    return solve_one(
+        beam, max(modes, 1), families=[family], normalisation="mass", tolerance=1e-8, damping="none"
+    )
 
 
 def basis(

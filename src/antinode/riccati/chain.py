@@ -153,7 +153,7 @@ class Chain:
     def reference(self) -> tuple[float, float]:
         """Stiffness and mass per length that scale the equations (means over the length)."""
         weight = self.length / np.sum(self.length)
-        return float(np.exp(weight @ np.log(self.stiffness))), float(weight @ self.mass)
+        return float(np.exp(weight @ np.log(np.abs(self.stiffness)))), float(weight @ self.mass)
 
     def units(self, omega2: Array) -> Units:
         """Return what scales the states, so that those of a wave at `omega2` are of order one."""

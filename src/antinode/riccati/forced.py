@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -32,7 +32,7 @@ from .chain import (
     state_units,
 )
 from .laws import Columns, Law, Units
-from .points import Point
+from .points import Point, moving
 from .shapes import gauss_rule, kept_nodes
 
 _LARGEST_STACK = 2_000_000  # complex matrix entries held at once
@@ -215,7 +215,7 @@ class _Sweep:
         """Pass supports, then masses, springs and forces, then a joint."""
         if point is not None and point.holds:
             self._hold(point.holds)
-        if force is not None or (point is not None and (point.loads or point.damps)):
+        if force is not None or (point is not None and _acts(point)):
             self._pass_loads(point, force)
         if point is not None and point.compliance:
             T = self.law.joint(point, len(self.units)).astype(complex)
@@ -230,10 +230,8 @@ class _Sweep:
         if point is None:
             self._add(f)
             return
-        spring: Any = point.spring + point.dashpot * self.lanes.dashpot
-        turning: Any = point.rotational_spring + point.rotational_dashpot * self.lanes.dashpot
-        stiff = replace(point, spring=spring, rotational_spring=turning)
-        tied = replace(stiff, mass=0.0, inertia=0.0, own_load=0.0)
+        stiff = moving(point, self.lanes.dashpot)
+        tied = replace(stiff, mass=0.0, inertia=0.0, own_load=0.0, feedback=None)
         pull = np.eye(law.size)[:, 0] - law.load(tied, self.lanes.omega2)[:, :, 0]
         f += pull[:, :, None] * self.loads.ground / self.units[:, :, None]
         self._pass(self._scaled(law.load(stiff, self.lanes.omega2)), f)
@@ -317,6 +315,11 @@ class _Sweep:
         unit = row / size
         null = np.stack([unit[:, 1], -unit[:, 0]], axis=-1)
         return (unit.conj() / size)[:, :, None] * missing[:, None, :], null
+
+
+def _acts(point: Point) -> bool:
+    """Tell whether a mass, a spring, a dashpot or a feedback acts at a point."""
+    return point.loads or point.damps or point.feeds_back
 
 
 def orthonormal(V: Numbers) -> tuple[Numbers, Numbers]:

@@ -9,6 +9,10 @@ rotational compliance f::
     M+ = M- - omega^2 [m_p d (Y + d theta) + J theta] + k_c Y + k_r theta + P d theta
     theta+ = theta- + f M
 
+A feedback of the node's own motion, whose matrix K need not be symmetric (row Y, row theta)::
+
+    Q+ = Q- - K_YY Y - K_Yt theta,   M+ = M- + K_tY Y + K_tt theta
+
 and along one freedom u with the force s K u' (s is -1 for a bar, 1 for a shaft)
 ``F+ = F- - s (omega^2 m_p u - k u)``, ``u+ = u- + s f F``. A support (an infinite spring) holds a
 displacement at zero and leaves the conjugate force free to jump.
@@ -17,11 +21,11 @@ displacement at zero and leaves the conjugate force free to jump.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
-from .arrays import Array
+from .arrays import Array, Complex
 
 StepKind = Literal["block", "load", "support", "joint"]
 
@@ -50,6 +54,11 @@ class Point:
     dashpot, rotational_dashpot : float
         To the ground [N s/m, N m s/rad]; at omega they add i omega times themselves to the
         springs. Undamped modes know nothing of them.
+    feedback : tuple of float, optional
+        K_YY, K_Yt, K_tY, K_tt of a force and a moment that oppose motion [N/m, N, N, N m]: where
+        K_Yt is not K_tY the problem is not self-adjoint, and counts do not know it.
+    feedback_damping : tuple of float, optional
+        The same for velocities [N s/m, N s, N s, N m s].
     """
 
     node: int
@@ -64,6 +73,13 @@ class Point:
     own_load: float = 0.0
     dashpot: float = 0.0
     rotational_dashpot: float = 0.0
+    feedback: tuple[float, float, float, float] | None = None
+    feedback_damping: tuple[float, float, float, float] | None = None
+
+    @property
+    def feeds_back(self) -> bool:
+        """Whether a feedback acts here."""
+        return self.feedback is not None or self.feedback_damping is not None
 
     @property
     def damps(self) -> bool:
@@ -98,7 +114,13 @@ def lateral_load(point: Point, omega2: Array) -> Array:
     T[:, 3, 1] = omega2 * m * d - point.coupling
     T[:, 2, 0] = -omega2 * m * d + point.coupling
     T[:, 2, 1] = -omega2 * (m * d * d + J) + point.rotational_spring + point.own_load * d
+    if point.feedback is not None:
+        for (row, column, sign), K in zip(_FEEDBACK, point.feedback, strict=True):
+            T[:, row, column] += sign * K
     return T
+
+
+_FEEDBACK = (3, 0, -1), (3, 1, -1), (2, 0, 1), (2, 1, 1)
 
 
 def lateral_joint(point: Point, lanes: int) -> Array:
@@ -144,3 +166,34 @@ def wave_energies(point: Point, state: Array, last: bool, sign: float) -> tuple[
     if not last:
         u = u - sign * point.compliance * F
     return point.mass * u**2, point.spring * u**2 + point.compliance * F**2
+
+
+@dataclass(frozen=True)
+class MovingPoint(Point):
+    """A point at complex s: its springs with what dashpots and feedback add there, by lanes."""
+
+    @property
+    def loads(self) -> bool:
+        """Whether anything acts here: that may depend on the lane."""
+        return True
+
+
+def moving(point: Point, s: Array | Complex) -> MovingPoint:
+    """Return a point as it acts on motion ``exp(s t)``: dashpots and feedback beside its springs.
+
+    Parameters
+    ----------
+    s : array of complex, shape (k,)
+        [1/s].
+    """
+    values: dict[str, Any] = vars(point) | {
+        "spring": point.spring + s * point.dashpot,
+        "rotational_spring": point.rotational_spring + s * point.rotational_dashpot,
+    }
+    if point.feeds_back:
+        K, C = point.feedback or _NONE, point.feedback_damping or _NONE
+        values["feedback"] = tuple(k + s * c for k, c in zip(K, C, strict=True))
+    return MovingPoint(**values)
+
+
+_NONE = (0.0, 0.0, 0.0, 0.0)

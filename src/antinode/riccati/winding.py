@@ -6,14 +6,14 @@ follows from a bound on its derivative. Where the discs of neighbours, that meet
 hold zero, the value turns by less than a right angle on either side of the middle, and the turn
 from sample to sample is the difference of their arguments: nothing is missed in between.
 
-Whoever knows a function says how far it may move: `Samples.spread`. Nothing here knows a beam.
+Whoever knows a function says how far it may move: `Bounded.spread`. Nothing here knows a beam.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -21,6 +21,32 @@ from .arrays import Array, Complex, Integers
 
 _SHARE = 0.9  # of a value that may separate it from the rest of its half arc
 _MOST = 4000  # samples of a path
+
+
+class Bounded(Protocol):
+    """Values of a function at some places, and how far it may be from them nearby."""
+
+    @property
+    def at(self) -> Complex:
+        """Places, shape (k,)."""
+        ...
+
+    @property
+    def value(self) -> Complex:
+        """Values there."""
+        ...
+
+    def spread(self, distance: Array) -> Array:
+        """Return how far the function may be from its values within a distance of each."""
+        ...
+
+    def some(self, rows: slice) -> Self:
+        """Return some of them."""
+        ...
+
+    def joined(self, other: Any, order: Integers) -> Self:
+        """Return both, in an order."""
+        ...
 
 
 class Samples(NamedTuple):
@@ -66,7 +92,7 @@ class Samples(NamedTuple):
 class Path(NamedTuple):
     """A path from place to place, along straight lines, and what the value does along it."""
 
-    samples: Samples
+    samples: Bounded
     turn: float
     """Of the value from the first place to the last [rad]; without meaning if not proven."""
     margin: float
@@ -78,13 +104,13 @@ class Path(NamedTuple):
         return self.margin > 0.0
 
 
-def follow(evaluate: Callable[[Complex], Samples], places: Complex, most: int = _MOST) -> Path:
+def follow(evaluate: Callable[[Complex], Bounded], places: Complex, most: int = _MOST) -> Path:
     """Follow a function along straight lines through places; halve them until all are bounded.
 
     Parameters
     ----------
     evaluate : callable
-        Of places, returns their `Samples` in the same order.
+        Of places, returns their samples in the same order.
     places : array of complex, shape (k,)
         Corners of the path, k >= 2.
     most : int
@@ -120,7 +146,7 @@ class Turns(NamedTuple):
 
 
 def around(
-    evaluate: Callable[[Complex], Samples], centre: complex, radius: float, most: int = _MOST
+    evaluate: Callable[[Complex], Bounded], centre: complex, radius: float, most: int = _MOST
 ) -> Turns:
     """Count zeros less poles in a circle: by a polygon outside it, whose sides touch it."""
     corners = 8

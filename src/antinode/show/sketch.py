@@ -22,6 +22,13 @@ _MARKS: dict[str, dict[str, Any]] = {
     "support": {"marker": "^", "y": -0.75, "color": INK, "ms": 7, "label": "support"},
     "joint": {"marker": "D", "y": 0.0, "color": PALETTE[3], "ms": 5, "label": "joint"},
     "dashpot": {"marker": "$\\sqcup$", "y": -0.6, "color": PALETTE[2], "ms": 9, "label": "dashpot"},
+    "point feedback": {
+        "marker": "$\\circlearrowleft$",
+        "y": 0.5,
+        "color": PALETTE[3],
+        "ms": 9,
+        "label": "feedback",
+    },
 }
 _ENDS = {"pinned": ("^", -0.75), "sliding": ("s", 0.0)}
 _MOST_LINES = 12  # lines through the panels, beyond which they would be a grid

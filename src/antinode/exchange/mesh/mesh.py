@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from antinode.arrays import Array, Integers
-from antinode.beam.attachments import Attachment, Dashpot, Joint, PointMass, Spring
+from antinode.beam.attachments import Attachment, Dashpot, Joint, PointFeedback, PointMass, Spring
 from antinode.beam.beam import Beam
 from antinode.beam.ends import AxialEnd, Ends
 from antinode.beam.families import BENDING, FAMILIES, LONGITUDINAL, TORSION, tells
@@ -209,6 +209,8 @@ def _along(item: Attachment) -> Attachment:
         return Spring(item.x, axial=item.torsional)
     if isinstance(item, Dashpot):
         return Dashpot(item.x, axial=item.torsional)
+    if isinstance(item, PointFeedback):
+        return Dashpot(item.x)
     return Joint(item.x, axial=item.torsional)
 
 

@@ -142,6 +142,7 @@ def _in_si(item: Attachment, system: System) -> Attachment:
         k = length / force
         turning, twisting = (v / (force * length) for v in (item.rotational, item.torsional))
         return Spring(x, item.translational * k, turning, item.axial * k, twisting)
+    assert isinstance(item, Joint)  # decks give no others
     turning, twisting = (v * force * length for v in (item.rotational, item.torsional))
     return Joint(x, turning, item.axial * force / length, twisting)
 

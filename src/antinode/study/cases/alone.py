@@ -40,7 +40,13 @@ def _solved(cases: Cases, i: int, points: int, family: FamilyName) -> _Solved | 
     try:
         with np.errstate(all="ignore"):
             beam = cases.case(i).beam()
-            result = solve_modes(beam, solve.modes, tolerance=solve.tolerance, families=[family])
+            result = solve_modes(
+                beam,
+                solve.modes,
+                tolerance=solve.tolerance,
+                families=[family],
+                damping="none",
+            )
     except (AntinodeError, ArithmeticError, CountingError):
         return None
     elastic = [k for k, m in enumerate(result.modes) if m.number][: solve.modes]

@@ -1,0 +1,1 @@
+"""Complex modes of a beam: eigenvalues s, refined, named, with shapes."""

@@ -1,0 +1,215 @@
+r"""A chain that loses or takes energy: what it is without that, and what acts besides.
+
+Motion is ``exp(s t)``, and omega^2 is ``-s^2``. Dashpots, feedback and end forces that turn act at
+few displacements q: there the forces are ``-(K + s C) q``. All the rest is self-adjoint: the `base`
+chain, whose eigenvalues are real and counted. An end force that turns is a feedback: at the right
+end ``Q = kappa psi`` there (at the left ``-kappa``).
+
+Stiffness that loses energy is complex: columns times ``1 + i eta``, for ``Im s > 0``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from antinode.riccati.arrays import Array, Complex, Integers, Numbers
+from antinode.riccati.chain import (
+    Chain,
+    Steps,
+    block_starts,
+    end_frame,
+    make_steps,
+    multiply_groups,
+    right_conditions,
+    split_long,
+    state_units,
+    sweep,
+)
+from antinode.riccati.frames import determinant
+from antinode.riccati.laws import Columns
+from antinode.riccati.points import Point, moving
+
+_LARGEST_STACK = 2_000_000  # complex matrix entries held at once
+
+
+Matrix = tuple[float, float, float, float]
+
+
+class Acting(NamedTuple):
+    """Displacements at which something acts that is not of the base chain, and its matrices."""
+
+    node: list[int]
+    freedom: list[int]
+    K: Array
+    """Shape (r, r), forces of displacements."""
+    C: Array
+    """Of velocities."""
+
+
+class Passed(NamedTuple):
+    """A chain at some s: its segments, the steps through it, and its units."""
+
+    fine: Chain
+    U: Numbers
+    """Of every segment, shape (n, k, s, s)."""
+    starts: Integers
+    steps: Steps
+    units: Array
+
+
+@dataclass(frozen=True)
+class Damped:
+    """A chain with all that acts on it.
+
+    Parameters
+    ----------
+    chain : Chain
+        Columns without loss.
+    columns : dict of array, optional
+        The same columns as they lose energy, complex; none where nothing does.
+    adjoint : bool
+        Whether every feedback stands transposed: its states are left eigenvectors then.
+    """
+
+    chain: Chain
+    columns: Columns | None = None
+    adjoint: bool = False
+
+    @cached_property
+    def points(self) -> tuple[Point, ...]:
+        """All that sits at the nodes, end forces that turn as feedback."""
+        at = {point.node: point for point in self.chain.points}
+        last = len(self.chain.length)
+        for node, kappa in ((0, -self.chain.following[0]), (last, self.chain.following[1])):
+            if kappa:
+                point = at.get(node, Point(node))
+                a, b, c, d = point.feedback or (0.0, 0.0, 0.0, 0.0)
+                at[node] = replace(point, feedback=(a, b + kappa, c, d))
+        points = tuple(at[node] for node in sorted(at))
+        return tuple(map(_transposed, points)) if self.adjoint else points
+
+    @cached_property
+    def base(self) -> Chain:
+        """The self-adjoint rest: springs with the diagonal of every feedback's stiffness."""
+        return replace(self.chain, following=(0.0, 0.0), points=tuple(map(_undamped, self.points)))
+
+    @cached_property
+    def acting(self) -> Acting:
+        """What acts besides, at displacements that nothing holds."""
+        law, last = self.chain.law, len(self.chain.length)
+        held = {(0, i) for i in law.ends[self.chain.left]}
+        held |= {(last, i) for i in law.ends[self.chain.right]}
+        blocks: list[tuple[list[tuple[int, int]], Array, Array]] = []
+        for point in self.points:
+            K, C = _matrices(point, law.size // 2)
+            free = [
+                i
+                for i in range(len(K))
+                if (point.node, i) not in held
+                and i not in point.holds
+                and np.any([K[i], K[:, i], C[i], C[:, i]])
+            ]
+            if free:
+                some = np.ix_(free, free)
+                blocks.append(([(point.node, i) for i in free], K[some], C[some]))
+        places = [place for block in blocks for place in block[0]]
+        total_K, total_C = np.zeros((2, len(places), len(places)))
+        first = 0
+        for own, K, C in blocks:
+            these = slice(first, first + len(own))
+            total_K[these, these], total_C[these, these] = K, C
+            first += len(own)
+        return Acting([n for n, _ in places], [i for _, i in places], total_K, total_C)
+
+    @property
+    def transposed(self) -> Damped:
+        """The adjoint problem, whose states are left eigenvectors."""
+        return replace(self, adjoint=not self.adjoint)
+
+    def passed(self, s: Complex) -> Passed:
+        """Return the steps through the chain at some s, shape (k,)."""
+        omega2: Numbers = -s * s
+        largest = float(np.max(np.abs(omega2)))
+        moved = replace(
+            self.chain, following=(0.0, 0.0), points=tuple(moving(p, s) for p in self.points)
+        )
+        fine = split_long(moved, largest)
+        columns = fine.columns
+        if self.columns is not None:
+            middle = (fine.nodes[1:] + fine.nodes[:-1]) / 2
+            owner = np.searchsorted(self.chain.nodes, middle) - 1
+            columns = {name: values[owner] for name, values in self.columns.items()}
+        starts, units = block_starts(fine, largest), state_units(fine, omega2)
+        beside = {name: values[:, None] for name, values in columns.items()}
+        U = fine.law.transfer(fine.length[:, None], beside, omega2, fine.units(omega2))
+        steps = make_steps(fine, omega2, multiply_groups(U, starts), starts)
+        return Passed(fine, U, starts, steps, units)
+
+    def characteristic(self, s: Complex) -> tuple[Complex, Array]:
+        """Return the entire characteristic function D(s), shape (k,): value and logarithm of size.
+
+        It is ``value exp(size)``, size real: the determinant of equation 66 without its growth.
+        """
+        together = max(1, _LARGEST_STACK // (16 * len(self.chain.length)))
+        parts = [self._characteristic(s[i : i + together]) for i in range(0, len(s), together)]
+        value, size = zip(*parts, strict=True)
+        return np.concatenate(value), np.concatenate(size)
+
+    def _characteristic(self, s: Complex) -> tuple[Complex, Array]:
+        fine, _, _, steps, units = self.passed(s)
+        frames = sweep(steps, end_frame(fine, 0, units).astype(complex))
+        value = frames.factor * determinant(right_conditions(fine, units) @ frames.F[-1])
+        size = np.sum(np.log(np.diagonal(frames.R, axis1=-2, axis2=-1).real), axis=(0, -1))
+        for i, rows in enumerate(steps.holds):
+            if len(rows) == 1:
+                size = size + np.log(_after_hold(frames.F[i], rows[0]))
+        law, logarithm = fine.law, np.log(units)
+        free = [i for i in range(law.size) if i not in law.zeros(fine.left)]
+        size = size + logarithm[:, law.zeros(fine.right)].sum(-1) - logarithm[:, free].sum(-1)
+        return np.asarray(value), np.asarray(size)
+
+
+def _after_hold(F: Numbers, row: int) -> Array:
+    """Return by what a frame shrinks where a support holds one of two displacements."""
+    a = np.stack([F[:, row, 1], -F[:, row, 0]], axis=-1)
+    state = np.einsum("ksd,kd->ks", F, a)
+    state[:, [row, F.shape[1] - 1 - row]] = 0.0
+    return np.asarray(np.linalg.norm(state, axis=-1))
+
+
+def _undamped(point: Point) -> Point:
+    """Return a point without dashpots, and of a feedback its springs alone."""
+    K = point.feedback or (0.0, 0.0, 0.0, 0.0)
+    return replace(
+        point,
+        spring=point.spring + K[0],
+        rotational_spring=point.rotational_spring + K[3],
+        dashpot=0.0,
+        rotational_dashpot=0.0,
+        feedback=None,
+        feedback_damping=None,
+    )
+
+
+def _matrices(point: Point, freedoms: int) -> tuple[Array, Array]:
+    """Return K and C of what acts at a point beside the base chain."""
+    K = np.array(point.feedback or np.zeros(4)).reshape(2, 2)
+    C = np.array(point.feedback_damping or np.zeros(4)).reshape(2, 2)
+    K = K - np.diag(np.diag(K))
+    C = C + np.diag([point.dashpot, point.rotational_dashpot])
+    return K[:freedoms, :freedoms], C[:freedoms, :freedoms]
+
+
+def _transposed(point: Point) -> Point:
+    def turned(K: Matrix | None) -> Matrix | None:
+        return K and (K[0], K[2], K[1], K[3])
+
+    return replace(
+        point,
+        feedback=turned(point.feedback),
+        feedback_damping=turned(point.feedback_damping),
+    )

@@ -1,0 +1,89 @@
+"""Forms of a chain between two states, such as left and right eigenvectors: ``w^T M v``.
+
+Quadratic forms of `Law.squares` are polarised: ``w v = ((w + v)^2 - (w - v)^2)/4``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from antinode.riccati.arrays import Array, Numbers
+from antinode.riccati.chain import Chain, largest_wave_number
+from antinode.riccati.laws import Squares
+from antinode.riccati.points import Point
+from antinode.riccati.shapes import gauss_rule, propagate
+
+from .chain import Damped
+
+
+class Products(NamedTuple):
+    """Forms of modes, shape (k,)."""
+
+    mass: Numbers
+    """w^T M v"""
+    stiffness: Numbers
+    """w^T K v, of all that does not move with the rate"""
+    damping: Numbers
+    """w^T C v"""
+    size: Array
+    """v^H M v: the integral of m abs(Y)^2, the modal mass."""
+
+
+def products(damped: Damped, chain: Chain, s: Numbers, right: Numbers, left: Numbers) -> Products:
+    """Return the forms of modes on a chain.
+
+    Parameters
+    ----------
+    damped : Damped
+        Whose `chain` is this one, or has the same nodes at its points.
+    chain : Chain
+        With columns as they lose energy.
+    s : array, shape (k,)
+    right, left : array, shape (n + 1, k, c)
+    """
+    omega2: Numbers = -s * s
+    total = np.zeros((2, len(Squares._fields), len(chain.length), len(s)), complex)
+    phase = largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length
+    for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
+        v = propagate(chain, right[:-1], omega2, point * chain.length)
+        w = propagate(chain, left[:-1], omega2, point * chain.length)
+        own = weight * chain.length[:, None]
+        for i, other in enumerate((w, v.conj())):
+            total[i] += own * _polar(lambda z: chain.law.squares(chain.columns, z), other, v)
+    forms = chain.law.forms(chain.columns, Squares(*total[0]))
+    mass: Numbers = forms.mass
+    stiffness: Numbers = forms.strain - forms.work
+    size: Numbers = chain.law.forms(chain.columns, Squares(*total[1])).mass
+    of_points = [_of_point(chain, point, right, left) for point in damped.base.points]
+    for inertia, elastic, own_size in of_points:
+        mass, stiffness, size = mass + inertia, stiffness + elastic, size + own_size
+    acting = damped.acting
+    damping: Numbers = np.zeros(len(s), complex)
+    if acting.node:
+        v, w = (
+            np.array([z[n, :, i] for n, i in zip(acting.node, acting.freedom, strict=True)])
+            for z in (right, left)
+        )
+        damping = np.einsum("ik,ij,jk->k", w, acting.C, v)
+        stiffness = stiffness + np.einsum("ik,ij,jk->k", w, acting.K, v)
+    return Products(mass, stiffness, damping, size.real)
+
+
+def _of_point(
+    chain: Chain, point: Point, right: Numbers, left: Numbers
+) -> tuple[Numbers, Numbers, Numbers]:
+    """Return a point's share of mass, stiffness and size."""
+    last, v, w = point.node == len(right) - 1, right[point.node], left[point.node]
+
+    def share(which: int, other: Numbers) -> Numbers:
+        return _polar(lambda z: chain.law.point_energies(point, z, last)[which], other, v)
+
+    return share(0, w), share(1, w), share(0, v.conj())
+
+
+def _polar(quadratic: Callable[[Numbers], Numbers], a: Numbers, b: Numbers) -> Numbers:
+    """Return a bilinear form from its quadratic one."""
+    return np.asarray((quadratic(a + b) - quadratic(a - b)) / 4)

@@ -1,0 +1,168 @@
+r"""The characteristic function over that of the base chain, and how far it may move.
+
+With the receptances G of the `base` chain between the displacements where something acts,
+
+    g(s) = D(s)/D_base(-s^2) = det(I + G(-s^2) (K + s C))
+
+has the eigenvalues s for zeros, and those of the base chain, s^2 = -lambda_k, for poles. In the
+modes of the base chain ``G_ij = sum_k y_ki y_kj / (m_k (lambda_k - lambda))``, so that with
+``S_i = sum_k y_ki^2 / (m_k |lambda_k - lambda|^2) = Im G_ii / Im lambda`` by Cauchy and Schwarz
+
+    |G_ij(lambda + d) - G_ij(lambda)| <= sqrt(S_i S_j) |d| / (1 - |d|/reach),
+
+reach the distance to the nearest lambda_k. A determinant is at most the product of the sums of
+its rows' moduli, a_i, and when entries move by X_ij it moves by no more than
+``prod(a_i + sum_j |X_ij|) - prod(a_i)``: of the matrix itself, or over its value of what the
+inverse makes of X. That bounds g around every sample.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from antinode.riccati.arrays import Array, Complex, Integers
+from antinode.riccati.forced import Lanes, Loads, forced_states
+
+from .chain import Damped
+
+_BESIDE = 1e-3  # of the reach: nearer to the axis S is taken from beside
+
+
+class RatioSamples(NamedTuple):
+    """Values of g at some places, and how fast it may leave them; see `winding.Bounded`."""
+
+    at: Complex
+    value: Complex
+    reach: Array
+    """Of -s^2 to the nearest eigenvalue of the base chain."""
+    matrix: Array
+    """Of I + G (K + s C), moduli, scaled by the roots of S, shape (k, r, r)."""
+    inverse: Array
+    """Of I + G (K + s C), moduli, scaled by the roots of S, shape (k, r, r)."""
+    receptance: Array
+    """Of G, moduli, scaled."""
+    stiffness: Array
+    """Of K + s C, moduli, scaled."""
+    damping: Array
+    """Of C, moduli, scaled."""
+
+    def spread(self, distance: Array) -> Array:
+        """Return how far the function may be from its values within a distance of each."""
+        t = distance
+        moved = t * (2 * np.abs(self.at) + t)
+        near = np.minimum(moved / self.reach, 1.0)
+        with np.errstate(all="ignore"):
+            tau = np.where(near < 1.0, moved / (1.0 - near), np.inf)[:, None, None]
+            t_ = t[:, None, None]
+            acting = np.sum(self.stiffness + t_ * self.damping, axis=-2, keepdims=True)
+            change = tau * acting + t_ * (self.receptance @ self.damping)
+            one = np.broadcast_to(np.eye(change.shape[-1]), change.shape)
+            size = np.abs(self.value)
+            bounds = [
+                size * _moved(one, self.inverse @ change, -1),
+                size * _moved(one, self.inverse @ change, -2),
+                _moved(self.matrix, change, -1),
+                _moved(self.matrix, change, -2),
+            ]
+            spread = np.nanmin(np.where(np.isnan(bounds), np.inf, bounds), axis=0)
+        return np.where(near < 1.0, spread, np.inf)
+
+    def remainder(self, distance: Array, disc: Array) -> Array:
+        """Return how far the function may be from its tangents within a distance of each place.
+
+        By Cauchy's inequality from the bound on a larger disc.
+        """
+        x = distance / disc
+        with np.errstate(all="ignore"):
+            return np.where(x < 1, self.spread(disc) * x * x / (1 - x), np.inf)
+
+    def some(self, rows: slice | Integers) -> RatioSamples:
+        """Return some of them."""
+        values: list[Any] = [column[rows] for column in self]
+        return RatioSamples(*values)
+
+    def joined(self, other: RatioSamples, order: Integers) -> RatioSamples:
+        """Return both, in an order."""
+        pairs = zip(self, other, strict=True)
+        values: list[Any] = [np.concatenate(pair)[order] for pair in pairs]
+        return RatioSamples(*values)
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """g of a chain.
+
+    Parameters
+    ----------
+    damped : Damped
+    poles : array
+        Eigenvalues of the base chain, ascending, up to one beyond every place asked for.
+    """
+
+    damped: Damped
+    poles: Array
+
+    @cached_property
+    def _loads(self) -> tuple[Loads, Integers]:
+        base, acting = self.damped.base, self.damped.acting
+        number, d = len(acting.node), base.law.size // 2
+        at: dict[int, Array] = {}
+        for case, (node, freedom) in enumerate(zip(acting.node, acting.freedom, strict=True)):
+            at.setdefault(node, np.zeros((d, number)))[freedom, case] = 1.0
+        along = np.zeros((len(base.length), number))
+        return Loads(at, along, np.zeros(number)), np.array(sorted(at), dtype=np.int64)
+
+    def receptances(self, omega2: Complex) -> Complex:
+        """Return G at omega^2 off the eigenvalues of the base chain, shape (k, r, r)."""
+        base, acting = self.damped.base, self.damped.acting
+        if not acting.node:
+            return np.zeros((len(omega2), 0, 0), complex)
+        loads, nodes = self._loads
+        z = forced_states(base, base.columns, Lanes(omega2, 0 * omega2), loads, nodes).left
+        rows = np.searchsorted(nodes, acting.node)
+        G = np.stack([z[row, :, i] for row, i in zip(rows, acting.freedom, strict=True)], axis=1)
+        return np.asarray((G + np.swapaxes(G, -1, -2)) / 2)
+
+    def samples(self, s: Complex) -> RatioSamples:
+        """Return g, bounded."""
+        omega2, acting = -s * s, self.damped.acting
+        reach = np.min(np.abs(omega2[:, None] - self.poles), axis=1) * (1 - 1e-9)
+        beside = np.abs(omega2.imag) < _BESIDE * reach
+        sign = np.where(omega2.imag < 0, -1.0, 1.0)
+        shifted = (omega2 + 1j * sign * _BESIDE * reach)[beside]
+        G = self.receptances(np.concatenate([omega2, shifted]))
+        G, there = G[: len(s)], G[len(s) :]
+        diagonal = np.diagonal(G, axis1=-2, axis2=-1).imag.copy()
+        off = omega2.imag.copy()
+        diagonal[beside] = np.diagonal(there, axis1=-2, axis2=-1).imag * (1 + _BESIDE) ** 2
+        off[beside] = shifted.imag
+        size = np.sqrt(np.maximum(np.abs(diagonal / off[:, None]), 1e-300))
+        scaled = G / (size[:, :, None] * size[:, None, :])
+        across = size[:, :, None] * size[:, None, :]
+        Z = (acting.K + s[:, None, None] * acting.C) * across
+        A = np.eye(len(acting.node)) + scaled @ Z
+        with np.errstate(all="ignore"):
+            inverse = _inverse(A)
+            value = np.linalg.det(A)
+        C = np.abs(acting.C) * across
+        return RatioSamples(
+            s, value, reach, np.abs(A), np.abs(inverse), np.abs(scaled), np.abs(Z), C
+        )
+
+
+def _moved(matrix: Array, change: Array, axis: int) -> Array:
+    """Bound the change of a determinant by the sums of moduli along an axis, shape (k,)."""
+    own, more = np.sum(matrix, axis=axis), np.sum(change, axis=axis)
+    with np.errstate(all="ignore"):
+        return np.asarray(np.prod(own, axis=-1) * np.expm1(np.sum(np.log1p(more / own), axis=-1)))
+
+
+def _inverse(A: Complex) -> Complex:
+    try:
+        return np.asarray(np.linalg.inv(A))
+    except np.linalg.LinAlgError:
+        return np.full_like(A, np.inf)

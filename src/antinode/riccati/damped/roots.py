@@ -1,0 +1,321 @@
+r"""Complex eigenvalues of a chain within a circle about s = 0: all of them, proven.
+
+    zeros of D within = 2 (eigenvalues of the base chain within) + turns of g
+
+D and g have real values on the real axis, so half the circle is followed (`riccati.winding`). Each
+eigenvalue, or a group that rounding cannot part, stands in a circle of its own around which the
+same is counted. Nothing is proven where columns are complex (loss): that is `damped.loss`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from antinode.riccati.arrays import Array, Complex, Numbers
+from antinode.riccati.chain import omega2_scale
+from antinode.riccati.roots import CountingError, Eigenvalue
+from antinode.riccati.winding import Path, follow
+
+from .chain import Damped
+from .ratio import Ratio
+from .search import Search, left_over
+
+BaseEigenvalues = Callable[[int], list[Eigenvalue]]
+"""Returns at least so many eigenvalues, from the lowest, of the base chain."""
+
+_GAPS = 8  # above those wanted in which the circle may stand
+_SHARES = 0.5, 0.35, 0.65  # of a gap where it crosses the axis
+_MOST = 1500  # samples on half a circle
+_WIDTH = 1e-11  # of a circle around an eigenvalue
+_TRIES = ((1, 16), (1, 64), (1, 256), (10, 64), (1e2, 256), (1e3, 256), (1e4, 256), (1e5, 256))
+"""Circles about an eigenvalue: over the first radius, and with how many corners."""
+_DISC = 0.2  # of the distance to the next pole of g: where its tangent is bounded
+_STEP = 1e-3  # of that disc, between places that tell the slope
+_APART = 1e-6  # relative distance of eigenvalues that starts alone may tell apart
+_ROUNDS = 6
+
+
+@dataclass(frozen=True)
+class ComplexEigenvalue:
+    """One eigenvalue, Im s >= 0, for itself and its conjugate.
+
+    Attributes
+    ----------
+    s : complex
+        [1/s].
+    error : float
+        Radius of a circle about s that holds it [1/s].
+    proven : bool
+        Whether turns around that circle prove so.
+    members : int
+        Eigenvalues in that circle: rounding cannot part them.
+    """
+
+    s: complex
+    error: float
+    proven: bool
+    members: int = 1
+
+
+@dataclass(frozen=True)
+class Circle:
+    """Why nothing is missing and nothing too many in a circle.
+
+    Attributes
+    ----------
+    radius : float
+        [1/s].
+    base : int
+        Eigenvalues omega^2 of the base chain within, each for two of s.
+    turns : int
+        Of g, all the way round.
+    samples : int
+        Of g, on half the circle.
+    margin : float
+        Least share of g that the bounds between samples leave.
+    at_zero : int
+        Eigenvalues s = 0.
+    """
+
+    radius: float
+    base: int
+    turns: int
+    samples: int
+    margin: float
+    at_zero: int
+
+    @property
+    def number(self) -> int:
+        """Eigenvalues within, s = 0 and conjugates counted."""
+        return 2 * self.base + self.turns
+
+
+@dataclass(frozen=True)
+class ComplexRoots:
+    """Eigenvalues within a circle, by abs(Im s), then Re s; those at s = 0 are not among them."""
+
+    eigenvalues: list[ComplexEigenvalue]
+    circle: Circle
+
+    @property
+    def found(self) -> int:
+        """How many were found, s = 0 and conjugates counted."""
+        return self.circle.at_zero + sum(2 if v.s.imag else 1 for v in self.eigenvalues)
+
+    @property
+    def proven(self) -> bool:
+        """Whether as many are enclosed as are proven to be there."""
+        enclosed = all(v.proven for v in self.eigenvalues)
+        return self.circle.margin > 0 and enclosed and self.found == self.circle.number
+
+
+class Finder:
+    """Finds the eigenvalues of one chain within a circle.
+
+    Parameters
+    ----------
+    damped : Damped
+        Without loss.
+    base : callable
+    zeros : int
+        Eigenvalues omega^2 = 0 of the base chain.
+    at_zero : int
+        Eigenvalues s = 0 of the chain itself, each as often as it counts.
+    """
+
+    def __init__(self, damped: Damped, base: BaseEigenvalues, zeros: int, at_zero: int) -> None:
+        self.damped, self.base, self.zeros, self.at_zero = damped, base, zeros, at_zero
+        self.scale = math.sqrt(omega2_scale(damped.chain))
+        self.poles: Array = np.zeros(0)
+
+    def find(self, wanted: int) -> ComplexRoots:
+        """Find all eigenvalues within a circle, `wanted` that oscillate among them at the least."""
+        below, best = wanted, None
+        for _ in range(_GAPS):
+            circle, path, below = self._certify(below)
+            roots = self._within(circle, path)
+            oscillating = sum(v.s.imag > 0 for v in roots.eigenvalues)
+            if oscillating >= wanted or (best is not None and not roots.proven):
+                return roots
+            best, below = roots, below + max(1, wanted - oscillating)
+        assert best is not None
+        return best
+
+    # --- how many ---------------------------------------------------------------------------------
+
+    def _certify(self, below: int) -> tuple[Circle, Path, int]:
+        """Return a proof for a circle through the gap above so many base eigenvalues, or higher."""
+        best: tuple[Circle, Path, int] | None = None
+        for index in range(below, below + _GAPS):
+            values = self.base(index + 2)
+            self.poles = np.array([0.0 if abs(v.omega2) == 0 else v.omega2 for v in values])
+            low, high = values[index - 1].bracket[1], values[index].bracket[0]
+            if not high > 0 or not low < high:
+                continue
+            low = max(low, 0.0)
+            for share in _SHARES:
+                root = low**0.25 + (high**0.25 - low**0.25) * share
+                circle, path = self._circle(root**2)
+                if circle.margin > 0:
+                    return circle, path, index
+                best = best or (circle, path, index)
+        if best is None:
+            raise CountingError("no circle was found around the eigenvalues that are wanted")
+        return best
+
+    @cached_property
+    def _angles(self) -> Array:
+        return np.linspace(0, math.pi, 25)
+
+    def _circle(self, radius: float) -> tuple[Circle, Path]:
+        """Count the turns of g along half a circle, by chords between points of it."""
+        places = radius * np.exp(1j * self._angles)
+        places[0], places[-1] = radius, -radius
+        path = follow(self._ratio.samples, places, _MOST)
+        turns = path.turn / math.pi
+        number = round(turns) if math.isfinite(turns) else 0
+        whole = math.isfinite(turns) and abs(turns - number) < 1e-6
+        inside = int(np.sum(np.abs(self.poles) < radius**2))
+        margin = path.margin if whole else min(path.margin, -1.0)
+        circle = Circle(radius, inside, number, len(path.samples.at), margin, self.at_zero)
+        return circle, path
+
+    @property
+    def _ratio(self) -> Ratio:
+        return Ratio(self.damped, self.poles)
+
+    # --- where ------------------------------------------------------------------------------------
+
+    def _within(self, circle: Circle, path: Path) -> ComplexRoots:
+        """Find and enclose the eigenvalues within a circle."""
+        search = Search(self.damped.characteristic, self.at_zero, circle.radius)
+        known: list[complex] = []
+        steps: list[float] = []
+
+        def missing() -> int:
+            return circle.number - circle.at_zero - sum(2 if s.imag else 1 for s in known)
+
+        def take(found: Complex, step: Array, apart: float) -> None:
+            for s, size in zip(found, step, strict=True):
+                new = complex(s)
+                near = any(abs(new - z) <= apart * abs(z) for z in known)
+                inside = self._is_inside(new, circle)
+                if np.isfinite(size) and inside and not near and missing() > 0:
+                    known.append(new)
+                    steps.append(float(size))
+
+        starts = np.sqrt(self.poles[(np.abs(self.poles) < circle.radius**2)] + 0j) * 1j
+        starts = starts[starts != 0]
+        if len(starts):
+            take(*search.run(starts * (1 + 1e-4j), []), _APART)
+        for turn in range(_ROUNDS):
+            if missing() <= 0:
+                break
+            for start in self._starts(circle, path, known, turn):
+                if missing() > 0:
+                    take(*search.run(np.array([start]), known), 0.0)
+        if known:
+            at, step = search.run(np.array(known), [])  # polished, without what was divided out
+            for k, (s, size) in enumerate(zip(at, step, strict=True)):
+                if np.isfinite(size) and abs(s - known[k]) < 1e-7 * abs(known[k]):
+                    known[k], steps[k] = complex(s), float(size)
+        return ComplexRoots(self._enclosed(known, steps), circle)
+
+    def _is_inside(self, s: complex, circle: Circle) -> bool:
+        """Tell whether s is inside the polygon that was followed."""
+        return abs(s) < circle.radius
+
+    def _starts(self, circle: Circle, path: Path, known: list[complex], turn: int) -> Complex:
+        """Return where to look for what is missing: by sums of powers, then all over."""
+        rho = circle.radius
+        if turn < 2:
+            of_base = 1j * np.sqrt(self.poles[np.abs(self.poles) < rho**2] + 0j)
+            all_base = np.concatenate([of_base, -of_base]) / rho
+            full = [*known, *(s.conjugate() for s in known if s.imag)]
+            have: Numbers = np.array([*full, *[0.0] * circle.at_zero], dtype=complex) / rho
+            number = circle.number - len(have)
+            sums = _sums(path, all_base, rho, circle.number, number + 1)
+            places = left_over(sums, have) * rho
+            upper = places[places.imag >= -1e-9 * rho]
+            upper = np.where(upper.imag < 0, upper.conjugate(), upper)
+            return upper[np.argsort(-np.abs(upper))] * (1 + 1e-6 * turn)
+        rng = np.random.default_rng(turn)
+        r, phi = rho * np.sqrt(rng.uniform(0, 1, 12)), rng.uniform(0, math.pi, 12)
+        real = rho * np.concatenate([-np.geomspace(1e-4, 0.99, 8), np.geomspace(1e-4, 0.99, 4)])
+        return np.concatenate([real + 0j, r * np.exp(1j * phi)])
+
+    # --- how sure ---------------------------------------------------------------------------------
+
+    def _enclosed(self, known: list[complex], steps: list[float]) -> list[ComplexEigenvalue]:
+        """Put a circle about every eigenvalue around which turns prove how many it holds."""
+        if not known:
+            return []
+        s = np.array(known)
+        floor = 1e-14 * self.scale
+        radius = np.maximum(_WIDTH * np.abs(s), 8 * np.array(steps)) + floor
+        proven: Numbers = self._holds_one(s, radius)
+        members = np.ones(len(s), int)
+        everyone = np.concatenate([s, s[s.imag > 0].conj()])
+        outer = radius.copy()
+        for growth, corners in _TRIES:
+            open_ = np.flatnonzero(~proven)
+            if not len(open_):
+                break
+            outer[open_] = growth * radius[open_] / math.cos(math.pi / corners)
+            number, sure = self._counted(s[open_], growth * radius[open_], corners)
+            gap = np.abs(everyone[None, :] - s[open_, None])
+            inside = np.sum(gap < growth * radius[open_, None], axis=1)
+            good = sure & (number == inside) & (number > 0)
+            proven[open_[good]], members[open_[good]] = True, number[good]
+        rows = zip(s.tolist(), outer.tolist(), proven.tolist(), members.tolist(), strict=True)
+        found = [ComplexEigenvalue(*row) for row in rows]
+        return sorted(found, key=lambda v: (v.s.imag, v.s.real))
+
+    def _holds_one(self, s: Complex, radius: Array) -> Array:
+        """Tell about which places the tangent of g alone decides that one zero is near (Rouche)."""
+        here = self._ratio.samples(s)
+        disc = _DISC * here.reach / (2 * np.abs(s))
+        step = _STEP * disc
+        there = self._ratio.samples(np.concatenate([s + step, s - step])).value
+        with np.errstate(all="ignore"):
+            slope = np.abs(there[: len(s)] - there[len(s) :]) / (2 * step)
+            slope = slope - here.remainder(step, disc) / step
+            off = np.abs(here.value) + here.remainder(radius, disc)
+        return np.asarray((off < 0.5 * slope * radius) & (radius < disc))
+
+    def _counted(self, centre: Complex, radius: Array, corners: int) -> tuple[Array, Array]:
+        """Return the zeros of D in polygons about some places, and whether that is proven."""
+        turn = np.exp(2j * math.pi * (np.arange(corners) + 0.5) / corners)
+        outer = radius / math.cos(math.pi / corners)
+        places = centre[:, None] + outer[:, None] * turn
+        samples = self._ratio.samples(places.ravel())
+        half = np.repeat(outer * math.sin(math.pi / corners), corners)
+        with np.errstate(all="ignore"):
+            margin = 1 - samples.spread(half) / np.maximum(np.abs(samples.value), 1e-300)
+        value = samples.value.reshape(places.shape)
+        turns = np.sum(np.angle(np.roll(value, -1, axis=1) / value), axis=1) / (2 * math.pi)
+        of_base = np.sqrt(-self.poles + 0j)
+        of_base = np.concatenate([of_base, -of_base])
+        inside = np.sum(np.abs(of_base[None, :] - centre[:, None]) < radius[:, None], axis=1)
+        outside = np.sum(np.abs(of_base[None, :] - centre[:, None]) < outer[:, None], axis=1)
+        sure = np.all(margin.reshape(places.shape) > 0.02, axis=1) & (inside == outside)
+        sure &= np.abs(turns - np.round(turns)) < 1e-6
+        return np.round(np.nan_to_num(turns)).astype(int) + inside, sure
+
+
+def _sums(path: Path, of_base: Numbers, rho: float, number: int, most: int) -> Complex:
+    """Return sums of powers of the zeros of D within, over rho: of the base chain's, and by g."""
+    z, value = path.samples.at / rho, path.samples.value
+    with np.errstate(all="ignore"):
+        rise = np.log(value[1:] / value[:-1])
+    middle = (z[1:] + z[:-1]) / 2
+    sums = [complex(number)]
+    for k in range(1, most):
+        of_g = np.sum(np.nan_to_num(middle**k * rise)).imag / math.pi
+        sums.append(complex(np.sum(of_base**k).real + of_g))
+    return np.array(sums)

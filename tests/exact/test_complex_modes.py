@@ -1,0 +1,200 @@
+"""Complex modes in closed form, or against determinants written out here in many digits.
+
+Uniform beams with EI = m = L = 1: ``Y'''' = -s^2 Y``, so that ``k^4 = -s^2``; the determinants of
+what the ends want are taken in mpmath from the four exponentials.
+"""
+
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+
+import antinode as an
+
+CLAMPED = an.Ends(left="clamped")
+
+
+def uniform(ends=CLAMPED, N=0.0, pieces=2, **columns):
+    x = np.linspace(0, 1, pieces + 1)
+    one = np.ones(len(x))
+    force = np.full(len(x), N)
+    return an.Beam.from_stations(x, one, one, axial_force=force, ends=ends, **columns)
+
+
+def solve(beam, modes=5, **settings):
+    return an.solve_modes(beam, modes, families=["bending"], backend="numpy", **settings)
+
+
+def values(result):
+    return np.array([m.eigenvalue_per_s for m in result.modes if m.number])
+
+
+def determinant(s, N=0.0, EI=1.0, right=None):
+    """Of a clamped-free uniform beam; `right` gives K of the free end, 2x2, at s."""
+    b, c = mpmath.mpf(N) / EI, -s * s / EI
+    squares = [-b / 2 + sign * mpmath.sqrt(b * b / 4 + c) for sign in (1, -1)]
+    roots = [sign * mpmath.sqrt(square) for square in squares for sign in (1, -1)]
+    K = right(s) if right else [[0, 0], [0, 0]]
+    rows = [[], [], [], []]
+    for r in roots:
+        e = mpmath.exp(r)
+        Y, psi, M, Q = e, r * e, EI * r**2 * e, EI * r**3 * e + N * r * e
+        rows[0].append(1)
+        rows[1].append(r)
+        rows[2].append(M + K[1][0] * Y + K[1][1] * psi)
+        rows[3].append(Q - K[0][0] * Y - K[0][1] * psi)
+    return mpmath.det(mpmath.matrix(rows))
+
+
+def refined(start, **how):
+    """The zero of the determinant next to a start, in 30 digits."""
+    with mpmath.workdps(40):
+        s, step = mpmath.mpc(start), mpmath.mpf(10) ** -6
+        starts = (s, s * (1 + step), s * (1 + 1j * step))
+        root = mpmath.findroot(
+            lambda z: determinant(z, **how), starts, solver="muller", tol=1e-30, verify=False
+        )
+        return complex(root)
+
+
+@pytest.mark.parametrize("c", [0.1, 1.0, 5.0, 40.0])
+def test_a_dashpot_at_the_tip(c):
+    beam = uniform().with_attachments(an.Dashpot(1.0, translational=c))
+    result = solve(beam)
+    assert result.certificate["kind"] == "winding"
+    found = values(result)
+    for mode, s in zip((m for m in result.modes if m.number), found, strict=True):
+        exact = refined(s, right=lambda s: [[s * c, 0], [0, 0]])
+        assert abs(s - exact) <= 1e-9 * abs(exact)
+        assert abs(s - exact) <= mode.error_per_s <= 1e-9 * abs(s)
+    assert np.all(found.real < 0)
+
+
+def test_a_feedback_that_is_not_symmetric():
+    K, C = np.array([[3.0, 5.0], [-2.0, 0.5]]), np.array([[0.2, 0.3], [-0.1, 0.4]])
+    result = solve(uniform().with_attachments(an.PointFeedback.of(1.0, K, C)))
+    assert result.certificate["kind"] == "winding"
+    for s in values(result):
+        exact = refined(
+            s, right=lambda s: [[K[i, j] + s * C[i, j] for j in (0, 1)] for i in (0, 1)]
+        )
+        assert abs(s - exact) <= 1e-9 * abs(exact)
+
+
+def test_a_feedback_is_a_spring_a_coupling_and_a_dashpot_where_it_is_symmetric():
+    K, C = [[30.0, 2.0], [2.0, 4.0]], [[0.3, 0.0], [0.0, 0.1]]
+    one = uniform().with_attachments(an.PointFeedback.of(0.5, K, C))
+    other = uniform().with_attachments(
+        an.Spring(0.5, translational=30, rotational=4, coupling=2),
+        an.Dashpot(0.5, translational=0.3, rotational=0.1),
+    )
+    np.testing.assert_allclose(values(solve(one)), values(solve(other)), rtol=1e-11)
+
+
+@pytest.mark.parametrize("c", [0.2, 0.7, 0.99, 1.01, 3.0])
+def test_a_damped_bar(c):
+    """EA = m = 1, held at the left: ``tanh s = -1/c``, so ``s = artanh(-1/c or -c) + i ...``."""
+    one = np.ones(2)
+    beam = an.Beam.from_stations([0, 1], one, one, one, ends=CLAMPED).with_attachments(
+        an.Dashpot(1.0, axial=c)
+    )
+    result = an.solve_modes(beam, 4, families=["longitudinal"], backend="numpy")
+    found = np.array([m.eigenvalue_per_s for m in result.modes])
+    sigma = -np.arctanh(min(c, 1 / c))
+    start = 0.5 if c < 1 else 0.0
+    exact = sigma + 1j * np.pi * (np.arange(len(found)) + start)
+    np.testing.assert_allclose(found, exact, rtol=1e-9)
+    assert [m.kind for m in result.modes][0] == ("elastic" if c < 1 else "overdamped")
+    assert result.certificate["kind"] == "winding"
+
+
+def test_a_shaft_with_a_dashpot():
+    one = np.ones(2)
+    beam = an.Beam.from_stations(
+        [0, 1], one, one, torsional_stiffness=one, polar_inertia_per_length=one, ends=CLAMPED
+    ).with_attachments(an.Dashpot(1.0, torsional=0.3))
+    result = an.solve_modes(beam, 3, families=["torsion"], backend="numpy")
+    exact = -np.arctanh(0.3) + 1j * np.pi * (np.arange(3) + 0.5)
+    np.testing.assert_allclose([m.eigenvalue_per_s for m in result.modes], exact, rtol=1e-9)
+
+
+def test_rigid_motions_that_dashpots_oppose_or_not():
+    free = uniform(an.Ends())
+    one = solve(free.with_attachments(an.Dashpot(0.3, translational=1.0)))
+    two = solve(free.with_attachments(an.Dashpot(0.3, translational=1.0, rotational=0.2)))
+    turned = solve(free.with_attachments(an.Dashpot(0.3, rotational=0.2)))
+    counts = [r.certificate["record"]["at_zero"] for r in (one, two, turned)]
+    assert counts == [3, 2, 3]
+    assert all(r.certificate["kind"] == "winding" for r in (one, two, turned))
+    for result in (one, two, turned):
+        assert [m.name for m in result.modes if m.kind == "rigid"] == [
+            "rigid translation",
+            "rigid rotation",
+        ]
+    slow = [m.eigenvalue_per_s for m in one.modes if m.kind == "overdamped"]
+    assert len(slow) == 1
+
+
+def test_growth_past_flutter():
+    """Beck's column at N = 25, past 20.05: a pair grows, its twin decays."""
+    beam = uniform(an.Ends(left="clamped", right_follower=1.0), N=25.0)
+    plain, damped = solve(beam, 3), solve(beam, 3, damping="complex")
+    np.testing.assert_allclose(
+        sorted(values(plain), key=lambda s: (s.imag, s.real)),
+        sorted(values(damped), key=lambda s: (s.imag, s.real)),
+        rtol=1e-9,
+    )
+    assert [m.kind for m in damped.modes] == ["elastic", "flutter", "elastic"]
+    s = damped.modes[1].eigenvalue_per_s
+    exact = refined(s, N=25.0, right=lambda s: [[0, 25.0], [0, 0]])
+    assert abs(s - exact) <= 1e-9 * abs(exact)
+    assert damped.certificate["kind"] == "winding"
+
+
+def test_left_eigenvectors_give_the_change_of_an_eigenvalue():
+    """A small dashpot and a small feedback: ``ds = -w^T (s dC + dK) v``."""
+    beam = uniform(an.Ends(left="clamped", right_follower=1.0), N=5.0).with_attachments(
+        an.Dashpot(1.0, translational=0.4)
+    )
+    before = solve(beam, 3)
+    for step, K, C in (
+        (1e-4, [[0, 1], [0, 0]], 0 * np.eye(2)),
+        (1e-4, 0 * np.eye(2), [[1, 0], [2, 0]]),
+    ):
+        K, C = np.array(K, float), np.array(C, float)
+        pairs = []
+        for sign in (1, -1):
+            moved = beam.with_attachments(
+                an.PointFeedback.of(0.5, sign * step * K, sign * step * C)
+            )
+            pairs.append(values(solve(moved, 3)))
+        numeric = (pairs[0] - pairs[1]) / (2 * step)
+        i = int(np.argmin(np.abs(before.x - 0.5)))
+        for mode, change in zip(before.modes, numeric, strict=True):
+            s = mode.eigenvalue_per_s
+            exact = -mode.left[i, :2] @ (K + s * C) @ mode.phasors[i, :2]
+            assert abs(exact - change) <= 1e-6 * abs(exact)
+
+
+def test_a_tapered_beam_states_an_error_that_holds():
+    x = np.array([0.0, 1.0])
+    beam = an.Beam.from_stations(x, [2, 1], [3, 1], interpolation="linear", ends=CLAMPED)
+    beam = beam.with_attachments(an.Dashpot(1.0, translational=1.0))
+    rough, fine = solve(beam, 4, tolerance=1e-4), solve(beam, 4, tolerance=1e-9)
+    for a, b in zip(rough.modes, fine.modes, strict=True):
+        off = abs(a.eigenvalue_per_s - b.eigenvalue_per_s)
+        assert off <= a.error_per_s + b.error_per_s
+        assert b.error_per_s < 2e-9 * abs(b.eigenvalue_per_s)
+    assert rough.segments["bending"] < fine.segments["bending"]
+
+
+def test_without_damping_everything_stays_as_it_was():
+    beam = uniform().with_attachments(an.Spring(1.0, translational=3.0))
+    dashed = beam.with_attachments(an.Dashpot(1.0, translational=0.3))
+    plain, none = solve(beam), solve(dashed, damping="none")
+    assert [m.omega2 for m in plain.modes] == [m.omega2 for m in none.modes]
+    assert plain.to_dict()["certificate"] == {"kind": "counts"}
+    complex_ = values(solve(replace(beam), damping="complex"))
+    np.testing.assert_allclose(complex_.imag, np.sqrt([m.omega2 for m in plain.modes]), rtol=1e-10)
+    assert np.max(np.abs(complex_.real)) < 1e-10
