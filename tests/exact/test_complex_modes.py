@@ -105,7 +105,7 @@ def test_a_damped_bar(c):
     start = 0.5 if c < 1 else 0.0
     exact = sigma + 1j * np.pi * (np.arange(len(found)) + start)
     np.testing.assert_allclose(found, exact, rtol=1e-9)
-    assert [m.kind for m in result.modes][0] == ("elastic" if c < 1 else "overdamped")
+    assert result.modes[0].kind == ("elastic" if c < 1 else "overdamped")
     assert result.certificate["kind"] == "winding"
 
 

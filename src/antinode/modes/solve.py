@@ -81,13 +81,11 @@ def solve_modes(
     unloaded : bool
         Also solve the beam without axial force, to tell what the force does to each mode.
     backend : {"auto", "numpy", "numba"}
-        What solves chain after chain: compiled code, or numpy, which is slower by some milliseconds
-        for every hundred segments and mode, and needs no compiler once an install. "auto" is numba.
+        Compiled code, or numpy, which is slower by some milliseconds for every hundred segments and
+        mode, and needs no compiler once an install. "auto" is numba.
     damping : {"auto", "none", "complex"}
-        Complex modes, by eigenvalues s of motion ``exp(s t)``: "auto" in every family in which a
-        dashpot or a feedback acts, "complex" in all, "none" nowhere, as if there were no dashpots.
-        The beam's loss factors count wherever modes are complex, so that "complex" alone has them
-        on a beam without dashpots.
+        Complex modes, motion ``exp(s t)``: "auto" where a dashpot or a feedback acts, "complex" in
+        all families, "none" as if there were no dashpots. Loss factors count in complex modes.
 
     Returns
     -------
@@ -103,7 +101,6 @@ def solve_modes(
     modes = whole("modes", modes, 500, " for each family")
     tolerance = within("tolerance", tolerance, 1e-12, 0.1, " (relative)")
     choice("normalisation", normalisation, Normalisation)
-    choice("damping", damping, Damping)
     solver = solver_of(method, choose(backend))
     beam = beam_of(problem)
     check_tension(beam)
@@ -123,16 +120,20 @@ def _complex(beam: Beam, family: FamilyName, damping: Damping, method: Method) -
     InputError
         If there are no others, and they were not asked for.
     """
+    choice("damping", damping, Damping)
     feedback = feeds_back(beam.attachments, family)
+    if method == "tmm" and damping == "complex":
+        raise InputError(
+            "method = 'tmm' scans real omega^2 and has no complex modes; leave it out for those"
+        )
     if feedback and (damping == "none" or method == "tmm"):
         asked = "damping = 'none'" if damping == "none" else "method = 'tmm'"
         raise InputError(
             f"a point feedback acts on the beam, and {asked} asks for modes that know nothing of "
             "it; leave that out for complex modes, or remove the feedback"
         )
-    if method == "tmm":
-        return False
-    return damping == "complex" or (damping == "auto" and is_damped(beam.attachments, family))
+    own = damping == "auto" and method != "tmm" and is_damped(beam.attachments, family)
+    return damping == "complex" or own
 
 
 def beam_of(problem: Beam | HasBeam) -> Beam:
