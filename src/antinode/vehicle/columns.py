@@ -18,6 +18,8 @@ _PLAIN = (
     "radius",
     "torsional_stiffness",
     "polar_inertia_per_length",
+    "shear_stiffness",
+    "rotary_inertia_per_length",
 )
 
 

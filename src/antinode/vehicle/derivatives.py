@@ -5,10 +5,11 @@ With a mode Y of unit modal mass, to first order and exactly
     d(omega^2) = int dEI Y''^2 - int dN Y'^2 - omega^2 int dm Y^2,
 
 and moving the place x_i of a drag F_i changes omega^2 by F_i Y'(x_i)^2 (compression and drag aft
-are positive). Where forces at the ends follow the body, every square is the product of the mode
-with its left eigenvector w, modal mass included, and what follows adds ``d kappa_tail Y'(L) w(L) -
-d kappa_nose Y'(0) w(0)``. N is linear in the forces, and goes with the mass ahead through the
-acceleration:
+are positive). Shear and rotary inertia add ``int dkGA gamma^2 - omega^2 int d(rho I) psi^2``, with
+the shear angle gamma = Y' - psi. Where forces at the ends follow the body, every square is the
+product of the mode with its left eigenvector w, modal mass included, and what follows adds
+``d kappa_tail Y'(L) w(L) - d kappa_nose Y'(0) w(0)``. N is linear in the forces, and goes with the
+mass ahead through the acceleration:
 
     N(x) = sum_i F_i [x > x_i] + a_X m_ahead(x),   a_X = (T - sum_i F_i) / m.
 
@@ -146,6 +147,11 @@ class ChainModes:
     def by_foundation(self) -> Array:
         """Weights of dk(x), shape (q, k)."""
         return self._over_mass(self._product(0))
+
+    @property
+    def mean_shear(self) -> Array:
+        """1/kGA of the segments at the Gauss points [1/N], shape (q,)."""
+        return self._column("shear")
 
     @cached_property
     def by_shear_stiffness(self) -> Array:
@@ -317,6 +323,13 @@ class MassChange(NamedTuple):
     ahead: Callable[[Array], Array]
 
 
+class ShearChange(NamedTuple):
+    """How kGA and rho I change with some parameters: at places, shape (q,) or (parameters, q)."""
+
+    stiffness: Callable[[Array], Array]
+    rotary: Callable[[Array], Array]
+
+
 @dataclass(frozen=True)
 class EigenvalueDerivatives:
     """Derivatives of the eigenvalues of one family of a vehicle in a condition.
@@ -413,6 +426,26 @@ class EigenvalueDerivatives:
         """Return density and what it does to N, put together; shape (k,) or (rows, k)."""
         force = self.loads.a_X * (ahead.T - np.multiply.outer(total, self._share_ahead))
         return np.asarray(density.T @ self.modes.by_mass + force @ self.modes.by_axial_force)
+
+    def by_shear(self, change: ShearChange) -> Array:
+        """Return d(omega^2) by what shear and rotary inertia do, (k,) or (parameters, k)."""
+        modes = self.modes
+        if not (self._bends and self.beam.has_shear):
+            return np.zeros(len(modes.omega2))
+        stiffness, rotary = change.stiffness(modes.x) * self._softness, change.rotary(modes.x)
+        return np.asarray(stiffness @ modes.by_shear_stiffness + rotary @ modes.by_rotary_inertia)
+
+    @cached_property
+    def _softness(self) -> Array:
+        """Square of the flexibility in shear over the segment's mean of it, shape (q,)."""
+        beam, k = self.beam, self._interval
+        t = (self.modes.x - beam.x[k]) / np.diff(beam.x)[k]
+        kGA = beam.column_at("shear_stiffness", k, t)
+        engesser = beam.shear_form == "engesser"
+        soft = kGA - beam.axial_force_at(k, t) if engesser else kGA
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = 1 / (soft * self.modes.mean_shear)
+        return np.where(np.isinf(kGA), 1.0, share**2)
 
     def by_mass_rows(self, stations: Array, column: Array, how: Interpolation) -> Array:
         """Return derivatives by the rows of the column of mass per length, shape (stations, k)."""

@@ -9,21 +9,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from antinode.arrays import Array, Interpolation
 from antinode.beam.families import FAMILIES
+from antinode.beam.profile import Profile
 
+from .balance import mass_of
 from .case import Case
 from .columns import column_values
-from .derivatives import EigenvalueDerivatives, ForceChange, MassChange, force_changes
+from .derivatives import (
+    EigenvalueDerivatives,
+    ForceChange,
+    MassChange,
+    ShearChange,
+    force_changes,
+)
 from .forces import ForceOnBody, forces_of
 from .many_loads import loads_of_many
-from .numbers import Keys, Numbers, is_vectorised, replaced, value_at
+from .numbers import Keys, ManyCases, Numbers, is_vectorised, replaced, value_at
 from .paths import Place
+from .theory import Sheared, sheared
 
 Forces = tuple[ForceOnBody[float], ...]
 
@@ -31,6 +41,12 @@ _STEP = 2e-6
 _STATIONS = ("vehicle", "stations")
 _MASSES = ("vehicle", "masses")
 _MASS = "mass_per_length"
+_OF_HULL = "radius", "radius_of_gyration", "wall"
+_OF_SHEAR = (
+    *(_MASS, "bending_stiffness", "axial_stiffness"),
+    *("shear_stiffness", "rotary_inertia_per_length"),
+)
+"""Columns that kGA and rho I may follow from, besides those of the hull."""
 _BURN = ("condition", "burn_fraction")
 _THRUST = ("condition", "thrust")
 
@@ -48,6 +64,7 @@ class Effect:
         A column of the stations and its row, which the number is.
     forces : tuple of ForceChange
     mass : MassChange or None
+    shear : ShearChange or None
     """
 
     case: Case
@@ -55,6 +72,7 @@ class Effect:
     row: tuple[str, int] | None = None
     forces: tuple[ForceChange, ...] = ()
     mass: MassChange | None = None
+    shear: ShearChange | None = None
 
     def slope(self, sensitivity: EigenvalueDerivatives) -> Array:
         """Return d(omega^2) of every mode for each unit of the number, shape (k,)."""
@@ -66,6 +84,8 @@ class Effect:
             total = total + sensitivity.by_force(change)
         if self.mass:
             total = total + sensitivity.by_mass(self.mass)
+        if self.shear:
+            total = total + sensitivity.by_shear(self.shear)
         return np.asarray(total)
 
 
@@ -92,20 +112,26 @@ def effects_between(case: Case, place: Place, values: Sequence[float]) -> list[E
     keys = place.keys
     if keys == _THRUST:
         return [Effect(case, thrust=1.0)] * (len(values) - 1)
-    if keys[:2] == _STATIONS and keys[2] != "radius":
+    if keys[:2] == _STATIONS and keys[2] not in _OF_HULL:
         row = _column(keys[2:-1]), int(keys[-1])
         return [Effect(case, row=row)] * (len(values) - 1)
     cases = [replaced(case, keys, value) for value in values]
     forces = _forces_at(case, keys, values) if is_vectorised(keys) else [_forces(c) for c in cases]
     steps = [high - low for low, high in pairwise(values)]
     masses: list[MassChange | None] = [None] * len(steps)
-    if keys == _BURN or keys[:2] == _MASSES:
+    shears: list[ShearChange | None] = [None] * len(steps)
+    weighs = keys == _BURN or keys[:2] == _MASSES
+    if weighs:
         masses = [
             _mass_change(*two, step) for two, step in zip(pairwise(cases), steps, strict=True)
         ]
+    if weighs or keys[:2] == _STATIONS:
+        shears = [
+            _shear_change(*two, step) for two, step in zip(pairwise(cases), steps, strict=True)
+        ]
     return [
-        Effect(case, forces=force_changes(*two, step), mass=mass)
-        for two, step, mass in zip(pairwise(forces), steps, masses, strict=True)
+        Effect(case, forces=force_changes(*two, step), mass=mass, shear=shear)
+        for two, step, mass, shear in zip(pairwise(forces), steps, masses, shears, strict=True)
     ]
 
 
@@ -113,10 +139,21 @@ def effect_of_radius(case: Case, weights: Array) -> Effect:
     """Return what a growth of the radius changes, given its logarithm's growth at every row."""
     radius = case.vehicle.stations.radius
     low, high = (
-        _forces(replaced(case, (*_STATIONS, "radius"), radius * np.exp(sign * _STEP * weights)))
+        replaced(case, (*_STATIONS, "radius"), radius * np.exp(sign * _STEP * weights))
         for sign in (-1, 1)
     )
-    return Effect(case, forces=force_changes(low, high, 2 * _STEP))
+    forces = force_changes(_forces(low), _forces(high), 2 * _STEP)
+    return Effect(case, forces=forces, shear=_shear_change(low, high, 2 * _STEP))
+
+
+def effect_of_mass(case: Case) -> Effect:
+    """Return what the mass of the whole body does, for a factor on all of it."""
+    mass = case.loads.mass_distribution
+    change = MassChange(mass.at, lambda x: mass.moments(x)[0])
+    found, shear = _sheared(case.many({}, 1)), None
+    if found is not None and case.vehicle.stations.rotary_inertia_per_length is None:
+        shear = ShearChange(np.zeros_like, found.rotary.at)
+    return Effect(case, mass=change, shear=shear)
 
 
 def by_logarithm(case: Case, keys: Keys, sensitivity: EigenvalueDerivatives) -> Array:
@@ -135,6 +172,14 @@ def by_logarithm(case: Case, keys: Keys, sensitivity: EigenvalueDerivatives) -> 
 
 def by_rows(case: Case, key: str, sensitivity: EigenvalueDerivatives) -> Array:
     """Return derivatives by the rows of a column such as ``mass_per_length:burnt``."""
+    own = _by_rows_of_law(case, key, sensitivity)
+    bends = sensitivity.modes.chain.law.has_axial_force
+    change = _shear_change_by_rows(case, key) if bends else None
+    return own if change is None else own + sensitivity.by_shear(change)
+
+
+def _by_rows_of_law(case: Case, key: str, sensitivity: EigenvalueDerivatives) -> Array:
+    """Return the same through mass and stiffness of the family's law alone."""
     vehicle = case.vehicle
     stations, how = vehicle.stations, vehicle.interpolation
     name, _, state = key.partition(":")
@@ -194,6 +239,52 @@ def _around(value: float, size: float, place: Place) -> tuple[float, float]:
     if high > place.high:
         high = value
     return low, high
+
+
+def _shear_change(before: Case, after: Case, step: float) -> ShearChange | None:
+    """Return how kGA and rho I change from one case to another, for each unit of a step."""
+    low, high = _sheared(before.many({}, 1)), _sheared(after.many({}, 1))
+    if low is None or high is None:
+        return None
+    return _change((low.stiffness, high.stiffness), (low.rotary, high.rotary), step)
+
+
+def _shear_change_by_rows(case: Case, key: str) -> ShearChange | None:
+    """Return how kGA and rho I change with each row of a column of the stations."""
+    name, _, state = key.partition(":")
+    keys = (*_STATIONS, name, *([state] if state else []))
+    if case.model.theory == "euler_bernoulli" or name not in _OF_SHEAR:
+        return None
+    if name == _MASS and not state:
+        keys = (*keys, next(iter(case.vehicle.stations.mass_per_length)))
+    column = column_values(case.vehicle.stations, keys[2:])
+    steps = _STEP * column
+    rows = np.concatenate([column - np.diag(steps), column + np.diag(steps)])
+    found = _sheared(case.many({keys: rows}, len(rows)))
+    assert found is not None
+    return _change(_halves(found.stiffness), _halves(found.rotary), 2 * steps[:, None])
+
+
+def _sheared(cases: ManyCases) -> Sheared | None:
+    return sheared(cases.vehicle, cases.model, mass_of(cases), cases.optional_column)
+
+
+def _halves(profile: Profile) -> tuple[Profile, Profile]:
+    """Return a profile of the first and of the second half of many cases."""
+    ends = profile.ends
+    if ends.ndim == 2:  # does not depend on what varies
+        return profile, profile
+    first, second = np.split(ends, 2)
+    return replace(profile, ends=first), replace(profile, ends=second)
+
+
+def _change(
+    stiffness: tuple[Profile, Profile], rotary: tuple[Profile, Profile], step: Any
+) -> ShearChange:
+    def difference(low: Profile, high: Profile) -> Callable[[Array], Array]:
+        return lambda x: np.asarray((high.at(x) - low.at(x)) / step)
+
+    return ShearChange(difference(*stiffness), difference(*rotary))
 
 
 def _mass_change(before: Case, after: Case, step: float) -> MassChange:

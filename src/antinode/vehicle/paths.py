@@ -174,6 +174,8 @@ _OF_SIGMA = (
     ("water", "atmospheric_pressure"),
 )
 
+_OF_TIMOSHENKO = "shear_stiffness", "rotary_inertia_per_length", "radius_of_gyration", "wall"
+
 
 def without_effect(case: Case, keys: Keys) -> str:
     """Say why a number of a case changes no load and no frequency; nothing if it may change some.
@@ -196,6 +198,9 @@ def without_effect(case: Case, keys: Keys) -> str:
         return "no fin set stands there; vary vehicle.fins.0.position instead"
     if keys == ("condition", "extra_drag_position") and not given.extra_drag:
         return "the case has no extra_drag"
+    sheared = keys[:2] == ("vehicle", "stations") and keys[2] in _OF_TIMOSHENKO
+    if sheared and case.model.theory == "euler_bernoulli":
+        return "the case has [model] theory = 'euler_bernoulli', which leaves it out"
     burns = len(vehicle.stations.mass_per_length) > 1 or any(p.burns for p in vehicle.masses)
     if keys == ("condition", "burn_fraction") and not burns:
         return "the vehicle has one mass state, and no part that burns"

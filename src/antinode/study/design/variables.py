@@ -29,6 +29,8 @@ _COLUMNS = (
     "radius",
     "torsional_stiffness",
     "polar_inertia_per_length",
+    "shear_stiffness",
+    "rotary_inertia_per_length",
 )
 
 

@@ -26,8 +26,8 @@ from antinode.modes.backends import for_one
 from antinode.modes.result import ModalResult
 from antinode.modes.solve import solve_one
 from antinode.vehicle.case import Case
-from antinode.vehicle.derivatives import ChainModes, EigenvalueDerivatives, MassChange
-from antinode.vehicle.effects import by_logarithm, effects_between
+from antinode.vehicle.derivatives import ChainModes, EigenvalueDerivatives
+from antinode.vehicle.effects import by_logarithm, effect_of_mass, effects_between
 from antinode.vehicle.paths import find_place
 
 _STEP = 1e-4  # relative, of what the forces depend on
@@ -106,8 +106,7 @@ def _parameters(case: Case) -> Iterator[tuple[str, str, float, float, str]]:
 def _of_body(case: Case, sensitivity: EigenvalueDerivatives) -> Iterator[Influence]:
     loads = case.loads
     yield Influence("thrust", "1 %", _relative(sensitivity, sensitivity.by_thrust * loads.thrust))
-    mass = loads.mass_distribution
-    by_mass = sensitivity.by_mass(MassChange(mass.at, lambda x: mass.moments(x)[0]))
+    by_mass = effect_of_mass(case).slope(sensitivity)
     yield Influence("mass of the body", "1 %", _relative(sensitivity, by_mass))
     by_EI = by_logarithm(case, ("bending_stiffness",), sensitivity).sum(axis=0)
     yield Influence("bending stiffness EI", "1 %", _relative(sensitivity, by_EI))
