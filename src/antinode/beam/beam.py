@@ -112,6 +112,8 @@ class Beam(ByValue):
     rotation : Rotation, optional
         Whose centrifugal force and softening stand in the tables (`beam.rotation`): those of a beam
         that bends in the plane of rotation may be softer than nothing.
+    left_out : tuple of str
+        What acts on it in truth and the model leaves out, for those who show its modes.
 
     Raises
     ------
@@ -150,6 +152,7 @@ class Beam(ByValue):
     name: str = "beam"
     drawing: Drawing | None = None
     rotation: Rotation | None = None
+    left_out: tuple[str, ...] = ()
 
     if TYPE_CHECKING:  # what the fields are made of
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from antinode.beam.attachments import PointFeedback
 from antinode.beam.beam import Beam
 from antinode.beam.plausible import doubts, pushed_at
 
@@ -36,6 +37,14 @@ FLUTTERS = (
     "same frequency decays; damping, which the model leaves out, may lower the load at which that "
     "starts: reduce the force or stiffen the beam"
 )
+FLUTTERS_DAMPED = (
+    "flutter: the motion grows while it oscillates, by forces that answer it, such as end forces "
+    "that follow or feedback; reduce them or stiffen the beam"
+)
+PUSHED_ON = (
+    "the motion grows without oscillating: forces that answer it push it on by more than the "
+    "stiffness, or whatever holds the body, turns it back"
+)
 ROTATION_NOT_TURNED_BACK = (
     "rigid rotation is divergent (omega^2 < 0): the forces that keep their direction turn the body "
     "on by more than those that follow it turn it back; control of the attitude is outside this "
@@ -59,12 +68,6 @@ SHEAR_LOWERS = (
 LOWEST_DIVERGES = (
     "the lowest mode, counted as rigid rotation, is divergent (omega^2 < 0): the body is in net "
     "tension, but compressed in parts past their buckling; reduce the compression there"
-)
-
-
-NEUTRAL = (
-    "omega^2 is zero within its error: these numbers do not tell whether the motion comes back or "
-    "grows; lower the tolerance, or change the load a little"
 )
 
 
@@ -95,18 +98,18 @@ def _cause(beam: Beam) -> str:
 def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
     """Return what a user should know of these modes, a sentence each."""
     warnings = doubts(beam)
-    divergent = [m.name for m in modes if m.kind == "divergent" and m.number]
-    if divergent:
-        warnings.append(f"{', '.join(divergent)}: omega^2 < 0, {_cause(beam)}")
-    growing = [m for m in modes if m.kind == "flutter"]
-    if growing:
-        names = ", ".join(f"{m.name} (by {m.growth:.4g} /s)" for m in growing)
-        warnings.append(f"{names}: {FLUTTERS}")
+    divergent = [m for m in modes if m.kind == "divergent" and m.number]
+    answered = any(isinstance(item, PointFeedback) for item in beam.attachments)
+    if divergent and answered:
+        warnings.append(f"{_growing(divergent)}: {PUSHED_ON}")
+    elif divergent:
+        warnings.append(f"{', '.join(m.name for m in divergent)}: omega^2 < 0, {_cause(beam)}")
+    flutter = [m for m in modes if m.kind == "flutter"]
+    if flutter:
+        complex_ = any(m.eigenvalue is not None for m in flutter)
+        warnings.append(f"{_growing(flutter)}: {FLUTTERS_DAMPED if complex_ else FLUTTERS}")
     if any(m.kind == "divergent" and not m.number for m in modes):
         warnings.append(_rotation_warning(beam))
-    neutral = [m.name for m in modes if 0 <= m.omega2 < m.error_omega2]
-    if neutral:
-        warnings.append(f"{', '.join(neutral)}: {NEUTRAL}")
     shapeless = [m.name for m in modes if math.isnan(m.modal_mass)]
     if shapeless:
         warnings.append(
@@ -114,6 +117,11 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
             "the frequencies and their counts hold"
         )
     return warnings + _shear_warnings(beam, modes) + _left_out(beam)
+
+
+def _growing(modes: list[Mode]) -> str:
+    """Name modes that grow, and how fast."""
+    return ", ".join(f"{m.name} (by {m.eigenvalue_per_s.real:.4g} /s)" for m in modes)
 
 
 def _left_out(beam: Beam) -> list[str]:

@@ -14,6 +14,8 @@ from antinode.vehicle.end_forces import compare_end_forces
 from antinode.vehicle.statics import deflection_warnings
 from antinode.version import __version__
 
+from .water import water_dict
+
 if TYPE_CHECKING:
     import xarray
 
@@ -143,6 +145,7 @@ def modes_dict(case: Case, result: ModalResult) -> dict[str, Any]:
     data["warnings"] = [*case.loads.warnings, *data["warnings"]]
     data["notes"] = list(case.notes)
     data["end_forces"] = [choice.to_dict() for choice in compare_end_forces(case, result)]
+    data["water"] = water_dict(case, result)
     return data
 
 

@@ -17,6 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from antinode.beam.attachments import name_of
+from antinode.beam.families import BENDING
 from antinode.modes.result import ModalResult, Mode, not_modelled
 from antinode.text import counted, one_line
 
@@ -81,7 +82,7 @@ def show_modes(
     if result.method == "tmm":
         out.print(f"[dim]{_BY_TMM}[/dim]", highlight=False)
     show_warnings(out, [*warnings, *result.warnings])
-    missing = "; ".join(not_modelled(result.beam))
+    missing = "; ".join(not_modelled(result.beam, result.is_complex))
     out.print(f"[dim]Not in the model: {missing}.[/dim]", highlight=False)
 
 
@@ -268,6 +269,30 @@ def show_end_forces(out: Console, choices: Sequence[Choice]) -> None:
         marks = "" if choice.proven else " (not proven)"
         _row(table, choice.name + (" (this file)" if choice.stated else marks), *values)
     out.print(table)
+
+
+def show_water(out: Console, case: Case, result: ModalResult) -> None:
+    """Print what the water does as the body vibrates, device by device, and what that changes."""
+    if not case.tangents:
+        return
+    from .water import bending_without, water_notes
+
+    headings = "spring [kN/m]", "dashpot [N s/m]", "turns with it [kN/rad]", "contact to [mm]"
+    table = new_table("the water at", "x [m]", *headings)
+    for t in case.tangents:
+        numbers = t.x, t.spring / 1e3, t.dashpot, t.following / 1e3
+        room = f"{t.room * 1e3:.3g}" if math.isfinite(t.room) else ""
+        _row(table, t.name, *(f"{value + 0.0:.4g}" for value in numbers), room)
+    out.print(table)
+    solved = [m for m in result.family(BENDING) if m.number and m.frequency_hz > 0]
+    rows = {"with the water (this file)": solved, "without": bending_without(case, result)}
+    shown = min(*map(len, rows.values()), _MOST_SHOWN)
+    table = new_table("bending f [Hz] that oscillate", *map(str, range(1, shown + 1)))
+    for name, found in rows.items():
+        _row(table, name, *(f"{m.frequency_hz:.4f}" for m in found[:shown]))
+    out.print(table)
+    for line in water_notes(case, result):
+        out.print(f"[dim]{line}[/dim]", highlight=False)
 
 
 def _plain(name: str) -> str:

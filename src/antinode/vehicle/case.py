@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from antinode.arrays import Array, Interpolation
+from antinode.beam.attachments import PointFeedback
 from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
 from antinode.beam.limits import check_limits
@@ -21,9 +22,11 @@ from antinode.inputs.reading import naming, read_tables
 from antinode.inputs.units import Frozen
 
 from .condition import OperatingCondition, Water
-from .loads import Loads, compute_loads
+from .loads import Loads, loads_of_case
+from .many_loads import ManyLoads, loads_of_many
 from .numbers import ManyCases, Numbers
 from .options import Model
+from .tangent import Tangent, disk_share, tangents
 from .theory import radius_of_gyration, sheared
 from .vehicle import Vehicle
 
@@ -42,6 +45,13 @@ COLUMNS = (
 )
 
 
+NO_TANGENT = (
+    "hydrodynamic stiffness and damping: what fins, planing tail and cavitator do as the body "
+    'vibrates ([model] hydrodynamic_stiffness = "tangent")'
+)
+"""What a vehicle's beam leaves out by default."""
+
+
 class Case(Frozen):
     """A vehicle in a condition, with all choices made."""
 
@@ -54,7 +64,19 @@ class Case(Frozen):
     @cached_property
     def loads(self) -> Loads:
         """Cavity, forces, accelerations and internal forces in this condition."""
-        return compute_loads(self.vehicle, self.condition, self.water, self.model)
+        return loads_of_case(self.many_loads, 0)
+
+    @cached_property
+    def many_loads(self) -> ManyLoads:
+        """The loads of this condition as the one row of many."""
+        return loads_of_many(self.many({}, 1))
+
+    @cached_property
+    def tangents(self) -> tuple[Tangent, ...]:
+        """What the water does as the body vibrates, device by device; none unless asked for."""
+        if self.model.hydrodynamic_stiffness == "none":
+            return ()
+        return tangents(self.many_loads.cases, self.loads)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -81,37 +103,53 @@ class Case(Frozen):
         InputError
             If its numbers are beyond all reason.
         """
-        beam = vehicle_beam(self.vehicle, self.loads, self.condition.burn_fraction, self.model)
+        beam = vehicle_beam(self)
         with naming(f"at {self.condition.speed:g} m/s"):
             check_limits(beam)
         return beam
 
 
-def vehicle_beam(vehicle: Vehicle, loads: Loads, burn_fraction: float, model: Model) -> Beam:
-    """Return a vehicle as a free-free beam under the axial force of its loads.
+def check_real(case: Case) -> Case:
+    """Return a case whose modes have no damping, as studies and identification want it.
 
-    Parameters
-    ----------
-    vehicle : Vehicle
-    loads : Loads
-        ``N(x) = axial_jump + axial_inertia * (mass ahead of x)`` between its breakpoints.
-    burn_fraction : float
-        0 the first mass state, 1 the last.
-    model : Model
-        Theory of the beam; shares of the cavitator's drag and of the thrust that turn with it.
+    Raises
+    ------
+    InputError
+        If the water's stiffness takes part.
     """
+    if case.model.hydrodynamic_stiffness != "none":
+        raise InputError(
+            "model.hydrodynamic_stiffness: received 'tangent', whose modes are complex; studies "
+            'and identification solve modes without damping: set it to "none", or run \'antinode '
+            "modes' for each case"
+        )
+    return case
+
+
+def vehicle_beam(case: Case) -> Beam:
+    """Return the vehicle of a case as a free-free beam under the axial force of its loads.
+
+    ``N(x) = axial_jump + axial_inertia * (mass ahead of x)`` between the breakpoints of the loads;
+    shares of the cavitator's drag and of the thrust turn with the body, and the water pushes back
+    where the model says so.
+    """
+    loads, burnt, model = case.loads, case.condition.burn_fraction, case.model
     nose, tail = model.follow
     steps = np.repeat(loads.axial_jump[:, None], 2, axis=1)
-    return body_as_beam(
-        vehicle,
+    pushed = model.hydrodynamic_stiffness == "tangent"
+    beam = body_as_beam(
+        case.vehicle,
         loads.breakpoints,
-        burn_fraction,
+        burnt,
         axial_force=steps,
         axial_acceleration=loads.axial_inertia,
-        ends=Ends(left_follower=nose, right_follower=tail),
+        ends=Ends(left_follower=disk_share(loads) if pushed else nose, right_follower=tail),
         end_force=(loads.F_CX, loads.thrust),
-        **_sheared(vehicle, loads, model),
+        left_out=() if pushed else (NO_TANGENT,),
+        **_sheared(case.vehicle, loads, model),
     )
+    feedback = [PointFeedback.of(t.x, t.stiffness, t.damping) for t in case.tangents]
+    return beam.with_attachments(*feedback) if feedback else beam
 
 
 def _sheared(vehicle: Vehicle, loads: Loads, model: Model) -> dict[str, Any]:

@@ -73,11 +73,12 @@ class Choice:
 def compare_end_forces(case: Case, result: ModalResult) -> tuple[Choice, ...]:
     """Return the bending frequencies for every choice of the end forces, what the case says first.
 
-    None where bending is not among the modes, or one of them does not oscillate steadily.
+    None where bending is not among the modes, one of them does not oscillate steadily, or the
+    water's stiffness takes part.
     """
     modes = [m for m in result.family(BENDING) if m.number]
     steady = all(m.omega2 > 0 and not m.growth for m in modes)
-    if not modes or not steady or result.method == "tmm":
+    if not modes or not steady or result.method == "tmm" or case.tangents:
         return ()
     omega2 = np.array([m.omega2 for m in modes])
     error = np.array([m.error_omega2 for m in modes])

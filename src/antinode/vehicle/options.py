@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from antinode.beam.checks import ShearForm, Theory
 from antinode.inputs.units import Frozen, Number
@@ -92,6 +92,22 @@ class Model(Frozen):
         default=None,
         description="share of the cavitator's drag that turns with the nose; by end_force",
     )
+
+    hydrodynamic_stiffness: Literal["none", "tangent"] = Field(
+        default="none",
+        description="what fins, planing tail and cavitator do as the body vibrates: nothing, or "
+        "their forces linearised about the computed state, as springs, dashpots and terms that "
+        "follow",
+    )
+
+    @model_validator(mode="after")
+    def _one_for_the_disk(self) -> Model:
+        if self.hydrodynamic_stiffness == "tangent" and self.cavitator_follows is not None:
+            raise ValueError(
+                "cavitator_follows: received beside hydrodynamic_stiffness = 'tangent', whose "
+                "slope of the disk's lift takes the place of that share; leave one of the two out"
+            )
+        return self
 
     @property
     def follow(self) -> tuple[float, float]:

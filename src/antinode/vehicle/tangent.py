@@ -84,7 +84,9 @@ class Tangent:
 
 
 def tangents(cases: ManyCases, loads: Loads) -> tuple[Tangent, ...]:
-    """Return the tangents of the fins and of the planing tail of one case.
+    """Return the tangents of cavitator, fins and planing tail of one case, those that are not zero.
+
+    That of the cavitator is what `disk_share` does not say.
 
     Parameters
     ----------
@@ -94,7 +96,7 @@ def tangents(cases: ManyCases, loads: Loads) -> tuple[Tangent, ...]:
         Its loads.
     """
     sets = (_fin_tangent(cases, loads, k) for k in range(len(loads.fins)))
-    found = (*sets, _planing_tangent(cases, loads))
+    found = (disk_tangent(loads, cases.condition.speed), *sets, _planing_tangent(cases, loads))
     return tuple(t for t in found if t.stiffness.any() or t.damping.any())
 
 

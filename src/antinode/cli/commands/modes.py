@@ -43,14 +43,19 @@ def modes(
 
         write_modes(output, result, lambda: modes_dict(problem, result))
     if not output.json:
-        from antinode.show.printing import console, show_condition, show_end_forces, show_modes
+        from antinode.show.printing import (
+            console,
+            show_condition,
+            show_end_forces,
+            show_modes,
+            show_water,
+        )
         from antinode.vehicle.end_forces import compare_end_forces
+
+        def beside() -> None:
+            show_end_forces(out, compare_end_forces(problem, result))
+            show_water(out, problem, result)
 
         out = console()
         show_condition(out, problem)
-        show_modes(
-            out,
-            result,
-            problem.loads.warnings,
-            beside=lambda: show_end_forces(out, compare_end_forces(problem, result)),
-        )
+        show_modes(out, result, problem.loads.warnings, beside=beside)

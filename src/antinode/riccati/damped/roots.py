@@ -35,7 +35,7 @@ _WIDTH = 1e-11  # of a circle around an eigenvalue
 _TRIES = ((1, 16), (1, 64), (1, 256), (10, 64), (1e2, 256), (1e3, 256), (1e4, 256), (1e5, 256))
 """Circles about an eigenvalue: over the first radius, and with how many corners."""
 _DISC = 0.2  # of the distance to the next pole of g: where its tangent is bounded
-_STEP = 1e-3  # of that disc, between places that tell the slope
+_STEP = 1e-6  # of that disc, between places that tell the slope
 _APART = 1e-6  # relative distance of eigenvalues that starts alone may tell apart
 _ROUNDS = 6
 

@@ -17,7 +17,6 @@ from antinode.errors import AntinodeError
 from antinode.riccati.chain import Chain
 from antinode.study.design.file import LOAD_OUTPUTS
 from antinode.vehicle.case import Case, vehicle_beam
-from antinode.vehicle.loads import loads_of_case
 from antinode.vehicle.many_beams import Chains, ManyBeams
 from antinode.vehicle.many_loads import ManyLoads, loads_of_many
 from antinode.vehicle.numbers import is_vectorised
@@ -74,7 +73,7 @@ def _on_arrays(cases: Cases, reason: Integers) -> CaseBeams:
 
 def load_messages(case: Case) -> tuple[str, ...]:
     """Return what the loads of cases that differ from one in numbers can warn of."""
-    return tuple(warning.message for warning in loads_of_many(case.many({}, 1)).warnings)
+    return tuple(warning.message for warning in case.many_loads.warnings)
 
 
 def _doubts(loads: ManyLoads) -> npt.NDArray[np.bool_]:
@@ -89,13 +88,8 @@ def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
     for i in np.flatnonzero(reason == 0).tolist():
         try:
             case = cases.case(i)
-            many = loads_of_many(case.many({}, 1))
-            beam = vehicle_beam(
-                case.vehicle,
-                loads_of_case(many, 0),
-                case.condition.burn_fraction,
-                case.model,
-            )
+            many = case.many_loads
+            beam = vehicle_beam(case)
             check_limits(beam)
         except AntinodeError:
             reason[i] = NO_BEAM

@@ -11,7 +11,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
@@ -19,7 +19,7 @@ from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_beside_case, read_cells
 from antinode.inputs.units import Frozen, Length, Number, Unit
 from antinode.text import short
-from antinode.vehicle.case import Case, load_case
+from antinode.vehicle.case import Case, check_real, load_case
 
 Quantity = float | str
 """A number, or a text with the unit of the key that it belongs to."""
@@ -251,7 +251,9 @@ class StudyFile(_Choices):
 class Study(_Choices):
     """A case, and what of it varies."""
 
-    case: Case = Field(description="what the inputs are changed in")
+    case: Annotated[Case, AfterValidator(check_real)] = Field(
+        description="what the inputs are changed in"
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -294,7 +296,7 @@ def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
             say = "leave out [[inputs]], and write kind = 'zip'"
             raise InputError(f"{where}: design.table stands for all inputs; {say}")
         kept["inputs"] = _read_table(path.parent / file.design.table)
-    return Study(case=load_case(path.parent / file.case), **kept)
+    return Study(case=check_real(load_case(path.parent / file.case)), **kept)
 
 
 def _read_table(path: Path) -> tuple[StudyInput, ...]:

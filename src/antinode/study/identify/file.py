@@ -13,14 +13,14 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, Field, create_model, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, create_model, model_validator
 
 from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_beside_case, toml_source
 from antinode.inputs.units import Frozen, Number, Unit
-from antinode.vehicle.case import Case, load_case
+from antinode.vehicle.case import Case, check_real, load_case
 from antinode.vehicle.condition import OperatingCondition
 
 from .observation_table import read_observations
@@ -259,7 +259,7 @@ class IdentificationFile(_Choices):
 class IdentificationProblem(_Choices):
     """A case, observations of it, and what of it may change."""
 
-    case: Case = Field(description="where to start")
+    case: Annotated[Case, AfterValidator(check_real)] = Field(description="where to start")
     case_text: str = Field(
         default="", repr=False, description="its file, whose comments a fitted case keeps"
     )
@@ -291,7 +291,7 @@ def load_identification(path: str | Path, assignments: Iterable[str] = ()) -> Id
         raise InputError(f"{where}: observations is empty; give one row at the least")
     file = validate(IdentificationFile, tables, where, elsewhere, ("observations",))
     return IdentificationProblem(
-        case=load_case(path.parent / file.case),
+        case=check_real(load_case(path.parent / file.case)),
         case_text=toml_source(path.parent / file.case),
         observations=file.observations,
         **{k: getattr(file, k) for k in _Choices.model_fields},

@@ -19,7 +19,7 @@ from antinode.study.design.file import Study, StudyInput, load_study
 from antinode.study.progress import cases_progress, end_progress
 from antinode.study.sweep.report import by_shear, warning_texts
 from antinode.text import counted, short
-from antinode.vehicle.case import load_case
+from antinode.vehicle.case import check_real, load_case
 
 from .sensitivity import SensitivityResult, sensitivity
 
@@ -78,7 +78,7 @@ def read_uncertain(file: Path, assignments: Iterable[str], uncertain: Sequence[s
                 f"{file}: this is a case; say what is uncertain, e.g. --uncertain speed=2%, or "
                 "name a study file"
             )
-        return Study(case=load_case(file, assignments), inputs=inputs)
+        return Study(case=check_real(load_case(file, assignments)), inputs=inputs)
     study = load_study(file, assignments)
     return study.model_copy(update={"inputs": (*study.inputs, *inputs)})
 

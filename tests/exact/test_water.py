@@ -1,0 +1,90 @@
+"""A vehicle on the water's stiffness: its complex modes against a dense quadratic eigenproblem."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.linalg
+
+import antinode as an
+from cli_run import run
+from forced_beam import HpResponse
+
+
+@pytest.fixture(scope="module")
+def starter(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("water")
+    run("init", "--example", "sweep", folder)
+    return folder / "case.toml"
+
+
+def case_of(path, **model):
+    wanted = {"theory": "euler_bernoulli", "hydrodynamic_stiffness": "tangent"} | model
+    return an.load_case(path, [f"model.{key}={value}" for key, value in wanted.items()])
+
+
+def dense(case):
+    """Eigenvalues of hp matrices with every tangent and end force put in by hand, im >= 0."""
+    loads = case.loads
+    beam = replace(case.beam(), attachments=(), ends=an.Ends())
+    beam = beam.with_breakpoints([t.x for t in case.tangents])
+    mesh = HpResponse(beam, 0.0, count=7, degree=7)
+    K, C, M = mesh.K.real.copy(), mesh.C.copy(), mesh.M
+    for t in case.tangents:
+        own = [mesh.dof(t.x, 0), mesh.dof(t.x, 1)]
+        K[np.ix_(own, own)] += t.stiffness
+        C[np.ix_(own, own)] += t.damping
+    F_x0 = np.hypot(loads.F_CX, loads.F_CY) / np.cos(loads.cavity.alpha)
+    # the disk's pressure turns with the nose and pushes up, the thrust with the tail and down
+    K[mesh.dof(0.0, 0), mesh.dof(0.0, 1)] -= F_x0 * np.cos(2 * loads.cavity.alpha)
+    K[mesh.dof(beam.x[-1], 0), mesh.dof(beam.x[-1], 1)] += case.model.follow[1] * loads.thrust
+    return lowest(K, C, M)
+
+
+def lowest(K, C, M, shift=20.0):
+    """Eigenvalues near a shift, im >= 0, by what is inverted: meshes this fine leave no other."""
+    d = 1 / np.sqrt(np.abs(np.diag(K)) + shift**2 * np.diag(M))
+    K, C, M = (A * np.outer(d, d) for A in (K, C, M))
+    P = scipy.linalg.lu_factor(K + shift * C + shift**2 * M)
+    # (s^2 M + s C + K) u = 0 as theta (u, s u) = T (u, s u), theta = 1/(s - shift)
+    top = -scipy.linalg.lu_solve(P, np.hstack([C + shift * M, M]))
+    one = np.eye(len(K))
+    T = np.vstack([top, np.hstack([one, 0 * one]) + shift * top])
+    theta = scipy.linalg.eigvals(T)
+    s = shift + 1 / theta[np.abs(theta) > 1e-4]
+    s = s[s.imag > -1e-6]
+    return s[np.argsort(np.abs(s))]
+
+
+@pytest.mark.parametrize("end_force", ["fixed_direction", "follows_body"])
+def test_the_starter_on_its_water(starter, end_force):
+    case = case_of(starter, end_force=end_force)
+    result = an.solve_modes(case, 4, families=["bending"])
+    exact = dense(case)
+    for mode in result.modes:
+        s = mode.eigenvalue_per_s
+        nearest = exact[np.argmin(np.abs(exact - s))]
+        assert abs(s - nearest) <= 2e-7 * abs(exact[5])
+    below = exact[np.abs(exact) < 0.99 * abs(result.modes[-1].eigenvalue_per_s)]
+    assert len(below) == len(result.modes) - 1
+
+
+def test_a_spring_at_the_tail_alone(starter):
+    """Contact of the starter as a spring and a dashpot, without what turns or the fins' lift."""
+    case = case_of(starter, hydrodynamic_stiffness="none", end_force="fixed_direction")
+    tangent = next(t for t in case_of(starter).tangents if t.name == "planing")
+    spring = an.Spring(tangent.x, translational=tangent.spring)
+    dashpot = an.Dashpot(tangent.x, translational=tangent.dashpot)
+    result = an.solve_modes(case.beam().with_attachments(spring, dashpot), 4, families=["bending"])
+    hertz = [m.frequency_hz for m in result.modes if m.frequency_hz > 0]
+    assert hertz[:3] == pytest.approx([2.11, 8.25, 16.67], abs=0.01)
+
+
+def test_it_stands_first_among_what_is_left_out_until_it_is_solved(starter):
+    plain = an.solve_modes(
+        case_of(starter, hydrodynamic_stiffness="none"), 2, families=["bending"]
+    ).to_dict()
+    solved = an.solve_modes(case_of(starter), 2, families=["bending"]).to_dict()
+    assert plain["not_modelled"][0].startswith("hydrodynamic stiffness")
+    assert not any("hydrodynamic" in words for words in solved["not_modelled"])
+    assert "damping" not in solved["not_modelled"]
