@@ -130,12 +130,77 @@ def test_both_ends_follow_a_constant_force():
     assert [m.omega2 for m in stable.modes[:2]] == [0.0, 0.0]
     assert [m.kind for m in stable.modes] == ["rigid", "rigid", "elastic", "elastic"]
     critical = 4 * np.pi**2
-    just = an.solve_modes(rocket(critical * (1 + 1e-9), left=1.0), 1)
+    just = an.solve_modes(rocket(critical * (1 + 1e-6), left=1.0), 1)
     assert just.modes[0].name == "bending 1"
     assert just.modes[0].kind == "divergent"
-    assert abs(just.modes[0].omega2) < 1e-4
+    assert abs(just.modes[0].omega2) < 1e-3
+    nearer = an.solve_modes(rocket(critical * (1 + 1e-9), left=1.0), 1)
+    assert [m.kind for m in nearer.modes if m.number] == ["elastic"]
+    assert "omega^2 is zero within its error" in nearer.warnings[0]
     below = an.solve_modes(rocket(critical * (1 - 1e-9), left=1.0), 1)
     assert "divergent" not in [m.kind for m in below.modes]
+
+
+@pytest.mark.parametrize("force", [1.0, 5.0, 15.0, -5.0])
+def test_a_rotation_about_a_pin_that_no_force_changes(force):
+    """With Q = N, M = 0 and psi = 1 the equations and ends hold at omega^2 = 0, whatever EI, m."""
+    ends = an.Ends("pinned", "free", right_follower=1.0)
+    beam = an.Beam.from_stations(
+        [0, 0.6, 1], [1, 2, 1], [1, 1, 3], axial_force=3 * [force], ends=ends, interpolation="log"
+    )
+    for one in (beam, beam.reversed()):
+        found = an.solve_modes(one, 2).to_dict()
+        rotation = found["modes"][0]
+        assert (rotation["name"], rotation["kind"]) == ("rigid rotation", "rigid")
+        assert (rotation["frequency_hz"], rotation["error_hz"]) == (0.0, 0.0)
+        assert found["warnings"] == []
+
+
+def two_forces(right):
+    """A beam whose force jumps from 5 to another; both follow their ends."""
+    x, EI, force = [0, 0.4, 0.4, 1], [1, 2, 2, 1], [5, 5, right, right]
+    ends = an.Ends(left_follower=1.0, right_follower=1.0)
+    return an.Beam.from_stations(
+        x, np.ones(4), EI, axial_force=force, ends=ends, interpolation="linear"
+    )
+
+
+@pytest.mark.parametrize("spring", [10.0, np.inf])
+@pytest.mark.parametrize("right", [5.0, 7.0])
+def test_a_rotation_about_a_place_that_is_held(spring, right):
+    """The spring gives way until it takes the difference of the forces on its two sides."""
+    beam = two_forces(right)
+    held = beam.with_attachments(Spring(0.4, translational=spring))
+    result = an.solve_modes(held, 2, families=["bending"])
+    rotation = result.modes[0]
+    assert (rotation.name, rotation.omega2, rotation.error_omega2) == ("rigid rotation", 0.0, 0.0)
+    Y, psi, M, Q = result.at([0.1, 0.4, 0.9])[:, 0].T
+    assert np.max(np.abs(M)) < 1e-12
+    assert [Q[0], Q[2]] == pytest.approx([5.0 * psi[0], right * psi[0]])
+    assert Y[1] == pytest.approx((5.0 - right) / spring * psi[0], abs=1e-12)
+    assert result.modes[1].kind == "elastic"
+
+
+def test_a_rotation_whose_forces_differ_about_a_pin_on_an_arm_is_turned():
+    beam = two_forces(7.0)
+    arm = Spring(0.4, translational=10.0, rotational=0.1, coupling=1.0)
+    result = an.solve_modes(beam.with_attachments(arm), 2, families=["bending"])
+    assert result.modes[0].name == "rigid rotation"
+    assert result.modes[0].omega2 != 0.0
+
+
+def test_a_value_that_is_zero_within_its_error_is_not_called_divergent():
+    for off in (-1e-14, 0.0, 1e-14):
+        ends = an.Ends("pinned", "pinned")
+        beam = an.Beam.from_stations([0, 1], [1, 1], [1, 1], axial_force=2 * [np.pi**2], ends=ends)
+        force = beam.axial_force * (1 + off)
+        result = an.solve_modes(replace(beam, axial_force=force), 1, families=["bending"])
+        mode = result.modes[0]
+        assert mode.kind == "elastic"
+        assert 0 <= mode.omega2 < mode.error_omega2
+        assert result.to_dict()["modes"][0]["frequency_hz"] is not None
+        assert ["bending 1: omega^2 is zero" in w for w in result.warnings] == [True]
+        assert not an.natural_frequencies(replace(beam, axial_force=force), 1).omega2[0] < 0
 
 
 def test_a_left_end_is_a_right_one_read_from_the_other_side():

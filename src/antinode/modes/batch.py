@@ -39,8 +39,9 @@ from .backends import Backend, BackendName, choose
 from .brackets import ROUNDING, cancelling, share_brackets
 from .following import eigenvalues_alone, two_sided_energies
 from .guesses import guess_omega2
-from .hertz import error_hz, hertz
-from .rigid import elastic, rigid_modes_of, translates, zeros_of
+from .hertz import error_hz, hertz, settled
+from .rigid import rigid_modes_of, translates, zeros_of
+from .rotation import elastic
 
 REASONS = (
     "",
@@ -231,7 +232,10 @@ class BatchResult(ByValue):
     error_omega2 : array, shape (beams, modes)
         Distance to the farther end of the bracket [rad^2/s^2].
     reason : array of int, shape (beams,)
-        0, or why a beam has NaN among its frequencies: an index of `REASONS`.
+        0, or an index of `REASONS`: why a beam has no omega^2, or what becomes of its motion. Past
+        buckling omega^2 is negative, and its frequency NaN. Past flutter a beam has its numbers:
+        omega^2 of a pair is the square of its frequency, stated twice, the member that decays
+        before the one that grows.
     evaluations : array of int, shape (beams,)
         How often the chain was evaluated.
     """
@@ -254,7 +258,7 @@ class BatchResult(ByValue):
         return error_hz(self.omega2, self.error_omega2)
 
     def why(self, beam: int) -> str:
-        """Return why a beam has NaN among its frequencies; empty if it has none."""
+        """Return the words of its `reason`; empty where all its modes oscillate steadily."""
         return REASONS[self.reason[beam]]
 
     def __len__(self) -> int:
@@ -286,7 +290,8 @@ def solve_many(batch: BeamBatch, *, backend: BackendName = "auto") -> BatchResul
     if (low[:, 1:] <= high[:, :-1]).any():
         for row in np.flatnonzero(np.any(low[:, 1:] <= high[:, :-1], axis=1)):
             share_brackets(low[row], high[row], counts[row])
-    error = np.maximum(high - omega2, omega2 - low)
+    omega2, error = settled(omega2, np.maximum(high - omega2, omega2 - low))
+    reason[(reason == PAST_BUCKLING) & (omega2[:, 0] >= 0)] = 0
     return BatchResult(omega2, bracket, counts, error, reason, evaluations)
 
 

@@ -7,7 +7,7 @@ make of it tells how many eigenvalues lie left of a line (`riccati.following_roo
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,13 +16,15 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.errors import ComputationError
 from antinode.riccati.chain import Chain
-from antinode.riccati.following_roots import Certificate, Finder
 from antinode.riccati.laws import Squares
 from antinode.riccati.roots import CountingError, Eigenvalue
 from antinode.riccati.shapes import Energies
 
 from .backends import Backend
 from .solvers import Counting, Found, Solver
+
+if TYPE_CHECKING:
+    from antinode.riccati.following_roots import Certificate
 
 NOT_PROVEN = (
     "that no mode is missing is not proven here: the forces that follow are too large beside the "
@@ -48,7 +50,9 @@ class Following(Solver):
         """Enclose every eigenvalue left of a line above those wanted."""
         if not chain.follows:
             return self.counting.find(chain, wanted, zeros=zeros, expected=expected)
-        exact = min(zeros, 1)  # of any chain: a turn that is free on a beam is so in the limit
+        from antinode.riccati.following_roots import Finder
+
+        exact = int(zeros > 0 and translates_freely(chain))  # a turn is free in the limit
 
         def fixed(number: int) -> list[Eigenvalue]:
             return self.counting.find(chain.fixed, number, zeros=exact).eigenvalues
@@ -83,6 +87,7 @@ def eigenvalues_alone(
     """
     if not chain.follows:
         return backend.find_eigenvalues(chain, number, zeros=zeros, width=width)
+    from antinode.riccati.following_roots import Finder
 
     def fixed(count: int) -> list[Eigenvalue]:
         return backend.find_eigenvalues(chain.fixed, count, zeros=zeros, width=width)
@@ -112,18 +117,25 @@ def _freed(found: list[Eigenvalue]) -> list[Eigenvalue]:
     A chain of uniform segments shares out the axial force a little wrongly, and misses by that.
     """
     others = [k for k, value in enumerate(found) if value.omega2 != 0.0]
-    zero = next(k for k, value in enumerate(found) if value.omega2 == 0.0)
-    nearest = min(others, key=lambda k: abs(complex(found[k].omega2, found[k].imaginary)))
-    low, high = found[nearest].bracket
-    edge = (min(low, found[zero].bracket[0]), max(high, found[zero].bracket[1]))
-    rest = [value for k, value in enumerate(found) if k not in (nearest, zero)]
+    nearest = min(others, key=lambda k: abs(found[k].value))
+    zeros = [nearest, *(k for k, value in enumerate(found) if value.omega2 == 0.0)]
+    edges = np.array([found[k].bracket for k in zeros])
+    edge = float(min(0.0, np.min(edges[:, 0]))), float(max(0.0, np.max(edges[:, 1])))
+    rest = [value for k, value in enumerate(found) if k not in zeros]
     below = sum(value.omega2 < 0 for value in rest)
-    both = [Eigenvalue(0, 0.0, edge, (below, below + 2))] * 2
-    listed = sorted([*rest, *both], key=lambda v: (v.order, -v.imaginary))
+    exact = [Eigenvalue(0, 0.0, edge, (below, below + len(zeros)))] * len(zeros)
+    listed = sorted([*rest, *exact], key=lambda v: (v.order, -v.imaginary))
     return [
         replace(v, index=k + 1, counts=v.counts if v.omega2 == 0.0 else (k, k + 1))
         for k, v in enumerate(listed)
     ]
+
+
+def translates_freely(chain: Chain) -> bool:
+    """Tell whether nothing holds the displacement of a chain."""
+    ends = any(0 in chain.law.ends[end] for end in (chain.left, chain.right))
+    points = any(p.spring or p.coupling or 0 in p.holds for p in chain.points)
+    return not (ends or points or np.any(chain.columns.get("foundation", 0.0)))
 
 
 def energies_of_modes(backend: Backend, chain: Chain, states: Array, omega2: Array) -> Energies:

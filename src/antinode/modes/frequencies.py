@@ -28,7 +28,7 @@ from antinode.riccati.reasons import CERTIFIED
 
 from .backends import Backend, BackendName, choose
 from .brackets import share_brackets
-from .hertz import error_hz, hertz
+from .hertz import error_hz, hertz, settled
 from .result import ModalResult
 from .rigid import rigid_modes, rigid_modes_of
 from .solve import HasBeam, beam_of, solve_modes
@@ -188,7 +188,8 @@ def _directly(solver: Backend, beam: Beam, modes: int, tolerance: float) -> Freq
     if found.omega2[0] < 0 and "translation" in rigid_modes(beam, BENDING):
         return None  # its omega^2 = 0 lies above an elastic mode: indices do not tell them apart
     _reach(found.bracket, found.omega2, found.counts)
-    return Frequencies(found.omega2, found.error, found.bracket, found.counts, found.segments, beam)
+    omega2, error = settled(found.omega2, found.error)
+    return Frequencies(omega2, error, found.bracket, found.counts, found.segments, beam)
 
 
 def _reach(bracket: Array, omega2: Array, counts: Integers) -> None:

@@ -3,6 +3,7 @@
     f = sqrt(omega^2) / (2 pi)
 
 Where omega^2 < 0 the motion grows instead of vibrating: there is no frequency, and `hertz` is NaN.
+What is below zero by no more than its own error is `settled` as 0.
 A fit that runs through buckling needs a number on either side of zero: `signed_hertz` is there
 minus the growth rate over 2 pi.
 """
@@ -10,7 +11,7 @@ minus the growth rate over 2 pi.
 from __future__ import annotations
 
 import math
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 
@@ -62,6 +63,24 @@ def error_of_root(square: float, error: float) -> float:
     root = math.sqrt(square)
     below = error / (root + math.sqrt(square - error)) if error < square else root
     return max(below, error / (root + math.sqrt(square + error)))
+
+
+@overload
+def settled(omega2: float, error: float) -> tuple[float, float]: ...
+@overload
+def settled(omega2: Array, error: Array) -> tuple[Array, Array]: ...
+def settled(omega2: float | Array, error: float | Array) -> tuple[Any, Any]:
+    """Return omega^2 and its error: 0 where it is below zero by no more than its error.
+
+    Nobody can tell from such a value that a motion grows. The interval that holds the true one
+    stays inside that of the new error.
+    """
+    unknown = (omega2 < 0) & (omega2 >= -error)
+    if isinstance(omega2, float | int):
+        return (0.0, error - omega2) if unknown else (omega2, error)
+    if not np.any(unknown):
+        return omega2, error
+    return np.where(unknown, 0.0, omega2), np.where(unknown, error - omega2, error)
 
 
 def signed_hertz(omega2: Array) -> Array:

@@ -13,7 +13,8 @@ from antinode.riccati.roots import Eigenvalue
 
 from .brackets import share_brackets
 from .result import Mode
-from .rigid import exact_zeros, nearest_to_rotation, pivot_of, rigid_modes
+from .rigid import exact_zeros, pivot_of, rigid_modes
+from .rotation import rotation_among
 
 
 def name_modes(
@@ -28,7 +29,7 @@ def name_modes(
         rigid.remove(name)
     for name in rigid:  # a rotation that the axial force moves off zero is the lowest of the rest
         rest = [k for k, given in enumerate(names) if given is None]
-        k = rest[0] if not any(beam.following(family)) else _nearest(beam, eigenvalues, rest)
+        k = rest[0] if not any(beam.following(family)) else _traced(beam, eigenvalues, rest)
         names[k] = (f"rigid {name}", 0)
     number = 0
     for k, given in enumerate(names):
@@ -38,10 +39,10 @@ def name_modes(
     return [name for name in names if name is not None]
 
 
-def _nearest(beam: Beam, eigenvalues: list[Eigenvalue], rest: list[int]) -> int:
-    """Return which eigenvalue is the rotation where end forces follow: as of a rigid body."""
+def _traced(beam: Beam, eigenvalues: list[Eigenvalue], rest: list[int]) -> int:
+    """Return which eigenvalue is the rotation where end forces follow."""
     some = [eigenvalues[k] for k in rest]
-    return rest[nearest_to_rotation(some, beam.chain(BENDING), pivot_of(beam))]
+    return rest[rotation_among(some, beam.chain(BENDING), pivot_of(beam))]
 
 
 def with_joint_brackets(modes: list[Mode]) -> list[Mode]:

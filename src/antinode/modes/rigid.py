@@ -2,7 +2,7 @@
 
 They are set aside by their index among the eigenvalues, never because they look small. Translation
 has omega^2 = 0 exactly, and so has rotation without axial force; an axial force moves rotation to
-where it is the lowest eigenvalue beside the translation.
+where it is the lowest eigenvalue beside the translation, unless all of it turns with the body.
 """
 
 from __future__ import annotations
@@ -11,13 +11,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers
 from antinode.beam.attachments import PointMass
 from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
 from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.riccati.chain import Chain
-from antinode.riccati.roots import Eigenvalue
+from antinode.riccati.points import Point
+
+_SHARES = np.array([0.0, 0.25, 0.5, 1.0])
+_ROUNDING = 1e-12  # of the largest N
+_NEAR = 1e-9  # of the length, of places that are one
 
 
 def rigid_modes(beam: Beam, name: FamilyName) -> tuple[str, ...]:
@@ -41,28 +45,70 @@ def exact_zeros(beam: Beam, name: FamilyName) -> int:
 
 
 def turns_freely(beam: Beam, name: FamilyName) -> bool:
-    """Tell whether nothing turns a loaded free body back: omega^2 = 0 is a double root then.
+    """Tell whether nothing turns back a loaded body that may turn: omega^2 = 0 is exact then.
 
     So it is where all forces of a body turn with it, both those at its ends and none other: what
-    the section carries, N(x), is then nothing but the inertia of what it pushes. Such a rotation is
-    no eigenvector: it accelerates the body sideways.
+    the section of a free body carries, N(x), is then nothing but the inertia of what it pushes.
+    Such a rotation is no eigenvector: it accelerates the body sideways, and zero is a double root.
+
+    A body that is held at one place does not: what pushes it there goes into what holds it. With
+    M = 0 and psi = 1 all along, ``Q = N`` does not change between the place and an end where it is
+    what turns with that end: the rotation is an eigenvector, and zero a single root.
     """
-    if not any(beam.following(name)) or len(beam.freedoms(name)) < 2:
+    freedoms = beam.freedoms(name)
+    turning = len(freedoms) == 2 or (len(freedoms) == 1 and not _is_translation(freedoms[0], beam))
+    if not any(beam.following(name)) or not turning:
         return False
-    (left, right), outside = beam.following(name), beam.end_forces
-    push = (right - left) / beam.mass
-    k, share = (
-        np.repeat(np.arange(len(beam.x) - 1), len(_SHARES)),
-        np.tile(_SHARES, len(beam.x) - 1),
-    )
-    N = beam.axial_force_at(k, share)
-    own = left + push * beam.mass_left_of(k, share)
-    size = _ROUNDING * float(np.max(np.abs(N)))
-    ends = max(abs(left - outside[0]), abs(right - outside[1]))
+    own = _carried_freely(beam, name) if len(freedoms) == 2 else _carried_about_pivot(beam, name)
+    if own is None:
+        return False
+    N = beam.axial_force_at(*_places(beam))
     through_centres = beam.offset_weight or not any(
         isinstance(item, PointMass) and item.offset for item in beam.attachments
     )
-    return bool(max(float(np.max(np.abs(N - own))), ends) <= size and through_centres)
+    off = float(np.max(np.abs(N - own)))
+    return off <= _ROUNDING * float(np.max(np.abs(N))) and through_centres
+
+
+def _places(beam: Beam) -> tuple[Integers, Array]:
+    """Return places in all intervals: the numbers of these, and shares of their lengths."""
+    last = len(beam.x) - 1
+    return np.repeat(np.arange(last), len(_SHARES)), np.tile(_SHARES, last)
+
+
+def _carried_freely(beam: Beam, name: FamilyName) -> Array | None:
+    """Return N of a free body which carries its inertia alone, None where ends do not follow."""
+    (left, right), outside = beam.following(name), beam.end_forces
+    if max(abs(left - outside[0]), abs(right - outside[1])) > _ROUNDING * max(map(abs, outside)):
+        return None
+    k, share = _places(beam)
+    return np.asarray(left + (right - left) / beam.mass * beam.mass_left_of(k, share))
+
+
+def _carried_about_pivot(beam: Beam, name: FamilyName) -> Array | None:
+    """Return the N of a body that turns about a place, on either side what follows at the end.
+
+    What is there takes the difference; None where it cannot without a moment.
+    """
+    (left, right), (held_left, held_right, points) = beam.following(name), beam.points(name)
+    if held_left != "free":
+        left = right
+    if held_right != "free":
+        right = left
+    pivot, nodes = pivot_of(beam) or 0.0, beam.x - beam.x[0]
+    if left != right and _node_at(pivot, nodes, points) is None:
+        return None
+    k, _ = _places(beam)
+    return np.where(nodes[k + 1] <= pivot + _NEAR * beam.length, left, right)
+
+
+def _node_at(pivot: float, nodes: Array, points: Sequence[Point]) -> Point | None:
+    """Return what holds a beam at a node, not on an arm."""
+    for point in points:
+        near = abs(nodes[point.node] - pivot) < _NEAR * nodes[-1]
+        if near and (point.spring or 0 in point.holds) and not point.coupling:
+            return point
+    return None
 
 
 def rigid_rotation(chain: Chain, pivot: float | None = None) -> float:
@@ -95,19 +141,6 @@ def pivot_of(beam: Beam) -> float | None:
     return float(-freedoms[0, 0] / freedoms[0, 1]) if len(freedoms) == 1 else None
 
 
-def nearest_to_rotation(
-    found: Sequence[Eigenvalue], chain: Chain, pivot: float | None = None
-) -> int:
-    """Return which eigenvalue, of those not exactly zero, is the rotation where ends follow."""
-    expected = rigid_rotation(chain, pivot)
-    rest = [k for k, value in enumerate(found) if value.omega2 != 0.0]
-    return min(rest, key=lambda k: abs(found[k].value - expected))
-
-
-_SHARES = np.array([0.0, 0.25, 0.5, 1.0])
-_ROUNDING = 1e-12  # of the largest N
-
-
 def rigid_state(beam: Beam, chain: Chain, name: str) -> Array:
     """Return the state of a rigid mode at omega^2 = 0, shape (nodes, s)."""
     state = np.zeros((len(chain.length) + 1, chain.law.size))
@@ -115,9 +148,18 @@ def rigid_state(beam: Beam, chain: Chain, name: str) -> Array:
         state[:, 0] = 1.0
         return state
     freedoms = beam.freedoms(chain.law.name)
-    held = len(freedoms) == 1
-    pivot = -freedoms[0, 0] / freedoms[0, 1] if held else centre_of_mass(chain)
-    state[:, 0], state[:, 1] = chain.nodes - pivot, 1.0
+    state[:, 1] = 1.0
+    if len(freedoms) == 2:
+        state[:, 0] = chain.nodes - centre_of_mass(chain)
+        return state
+    pivot = float(-freedoms[0, 0] / freedoms[0, 1])
+    holding = _node_at(pivot, chain.nodes, chain.points)
+    if holding is not None and not holding.holds:  # a spring gives way to what it takes
+        left, right = chain.following
+        pivot += (right - left) / holding.spring
+    state[:, 0] = chain.nodes - pivot
+    if chain.follows:
+        state[:, 3] = np.append(chain.axial_force, chain.axial_force[-1])
     return state
 
 
@@ -128,23 +170,6 @@ def centre_of_mass(chain: Chain) -> float:
     masses = np.array([p.mass for p in chain.points])
     places = np.array([nodes[p.node] + p.offset for p in chain.points])
     return float((dm @ middle + masses @ places) / (np.sum(dm) + np.sum(masses)))
-
-
-def elastic(
-    found: Sequence[Eigenvalue], rigid: int, chain: Chain | None = None
-) -> list[Eigenvalue]:
-    """Return the eigenvalues without the rigid ones: zeros, and the lowest that N moved off zero.
-
-    Past buckling elastic modes lie below the translation. Of a `chain` whose end forces follow the
-    one next to a rigid body's rotation is set aside.
-    """
-    others = [value for value in found if value.omega2 != 0.0]
-    if chain is not None and chain.follows and rigid > len(found) - len(others):
-        held = rigid == 1
-        pivot = (chain.nodes[-1] if chain.right == "pinned" else 0.0) if held else None
-        others.remove(found[nearest_to_rotation(found, chain, pivot)])
-        return others
-    return others[rigid - (len(found) - len(others)) :]
 
 
 def translates(ends: Ends, name: FamilyName) -> bool:

@@ -33,6 +33,7 @@ from .brackets import ROUNDING, cancelling
 from .damped.family import Damping
 from .damped.modes import damped_modes
 from .following import energies_of_modes
+from .hertz import settled
 from .naming import name_modes, with_joint_brackets
 from .refinement import NEAR_ZERO, Solved, solve_family
 from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
@@ -294,15 +295,16 @@ def _mode(
     low, high = value.bracket[0] - rounding, value.bracket[1] + rounding
     half = max(value.omega2 - low, high - value.omega2)
     error = 0.0 if exact else half + float(solved.discretisation[k])
+    omega2, error = settled(value.order, error)
     reference = max(abs(value.value), near_zero)
     growth = _growth(value)
-    kind: Kind = "divergent" if value.order < 0 else "elastic" if number else "rigid"
+    kind: Kind = "divergent" if omega2 < 0 else "elastic" if number else "rigid"
     return Mode(
         family=family,
         number=number,
         name=name,
         kind="flutter" if growth > 0 else kind,
-        omega2=value.order,
+        omega2=omega2,
         bracket_omega2=(low + moved, high + moved),
         counts=value.counts,
         error_omega2=error,

@@ -71,6 +71,12 @@ LOWEST_DIVERGES = (
 )
 
 
+NEUTRAL = (
+    "omega^2 is zero within its error: these numbers do not tell whether the motion comes back or "
+    "grows; lower the tolerance, or change the load a little"
+)
+
+
 def _rotation_warning(beam: Beam) -> str:
     """Say why the rotation of a body that may turn diverges."""
     if any(beam.following()):
@@ -110,6 +116,9 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
         warnings.append(f"{_growing(flutter)}: {FLUTTERS_DAMPED if complex_ else FLUTTERS}")
     if any(m.kind == "divergent" and not m.number for m in modes):
         warnings.append(_rotation_warning(beam))
+    neutral = [m.name for m in modes if 0 <= m.omega2 < m.error_omega2]
+    if neutral:
+        warnings.append(f"{', '.join(neutral)}: {NEUTRAL}")
     shapeless = [m.name for m in modes if math.isnan(m.modal_mass)]
     if shapeless:
         warnings.append(

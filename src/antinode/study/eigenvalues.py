@@ -21,7 +21,8 @@ from antinode.modes.backends import choose
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.modes.following import eigenvalues_alone
 from antinode.modes.hertz import signed_hertz
-from antinode.modes.rigid import elastic, rigid_modes_of, zeros_of
+from antinode.modes.rigid import rigid_modes_of, zeros_of
+from antinode.modes.rotation import elastic
 from antinode.riccati.chain import Chain
 from antinode.riccati.reasons import FLUTTERS
 from antinode.riccati.roots import CountingError

@@ -18,7 +18,9 @@ from antinode.beam.families import BENDING, FAMILIES
 from antinode.modes.backends import choose
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.modes.following import eigenvalues_alone
-from antinode.modes.rigid import elastic, rigid_modes_of, zeros_of
+from antinode.modes.hertz import settled
+from antinode.modes.rigid import rigid_modes_of, zeros_of
+from antinode.modes.rotation import elastic
 from antinode.riccati.chain import Chain
 from antinode.riccati.convergence import extrapolate
 from antinode.riccati.roots import CountingError
@@ -93,10 +95,11 @@ def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
     for chains in beams.chains(rows, refinement):
         at = chains.rows
         omega2, error, out.reason[at] = solve_free(chains, study.solve.modes)
-        out.omega2[at] = omega2
         out.net_force[at] = net_force(chains)
         out.lowest_diverges[at] = lowest_diverges(chains, omega2, out.net_force[at])
-        out.error[at] = error + np.abs(omega2) * share * weight[at, None]
+        error = error + np.abs(omega2) * share * weight[at, None]
+        out.omega2[at], out.error[at] = settled(omega2, error)
+        out.reason[at[(out.reason[at] == PAST_BUCKLING) & (out.omega2[at, 0] >= 0)]] = 0
         if chains.more and "effect_of_shear" in study.outputs:
             rigid, *_ = solve_free(chains.rigid, study.solve.modes)
             out.effect_of_shear[at] = _effect(omega2, rigid)
