@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from .response.quantities import Base, Force, Output
     from .response.shock import srs
     from .response.solve import solve_response
+    from .stability.result import CriticalLoad, Stability
+    from .stability.stability import stability
     from .study.design.file import Study, load_study
     from .study.identify.file import IdentificationProblem, load_identification
     from .study.identify.identification import identify
@@ -86,6 +88,9 @@ _HOME = {
     "load_response": "response.file",
     "solve_response": "response.solve",
     "srs": "response.shock",
+    "CriticalLoad": "stability.result",
+    "Stability": "stability.result",
+    "stability": "stability.stability",
     "Identification": "study.identify.result",
     "identify": "study.identify.identification",
     "IdentificationProblem": "study.identify.file",
@@ -117,6 +122,7 @@ __all__ = [
     "Case",
     "Cavitator",
     "ComputationError",
+    "CriticalLoad",
     "Damping",
     "Dashpot",
     "Ends",
@@ -138,6 +144,7 @@ __all__ = [
     "PointMass",
     "Section",
     "Spring",
+    "Stability",
     "Stations",
     "Study",
     "Vehicle",
@@ -162,6 +169,7 @@ __all__ = [
     "solve_modes",
     "solve_response",
     "srs",
+    "stability",
     "sweep",
 ]
 

@@ -37,6 +37,7 @@ COMMANDS = {
     "app": ("page:page", 12),
     "report": ("report:report", 13),
     "response": ("response:response", 14),
+    "stability": ("stability:stability", 15),
 }
 """Where each command stands under `cli/commands`, and its place in the help."""
 

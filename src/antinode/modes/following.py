@@ -15,6 +15,7 @@ from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.errors import ComputationError
+from antinode.riccati.arrays import Complex
 from antinode.riccati.chain import Chain
 from antinode.riccati.laws import Squares
 from antinode.riccati.roots import CountingError, Eigenvalue
@@ -45,9 +46,18 @@ class Following(Solver):
         return Counting(self.backend)
 
     def find(
-        self, chain: Chain, wanted: int, *, zeros: int, expected: Array | None = None
+        self,
+        chain: Chain,
+        wanted: int,
+        *,
+        zeros: int,
+        expected: Array | None = None,
+        pairs: Complex | None = None,
     ) -> Found:
-        """Enclose every eigenvalue left of a line above those wanted."""
+        """Enclose every eigenvalue left of a line above those wanted.
+
+        Where `pairs` are expected, or two are about to meet, it looks first.
+        """
         if not chain.follows:
             return self.counting.find(chain, wanted, zeros=zeros, expected=expected)
         from antinode.riccati.following_roots import Finder
@@ -58,7 +68,7 @@ class Following(Solver):
             return self.counting.find(chain.fixed, number, zeros=exact).eigenvalues
 
         try:
-            found = Finder(chain, fixed, exact, 1e-10).find(wanted)
+            found = Finder(chain, fixed, exact, 1e-10).find(wanted, pairs)
         except (CountingError, FloatingPointError) as error:
             raise ComputationError(
                 f"the {chain.law.name} eigenvalues could not be enclosed: {error}; "

@@ -10,7 +10,6 @@ so small that what it moves to is not in doubt.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from antinode.arrays import Array
 from antinode.riccati.chain import Chain
 from antinode.riccati.roots import Eigenvalue
 
+from .loading import loaded_chain
 from .rigid import rigid_rotation
 
 Solve = Callable[[Chain], Sequence[Eigenvalue]]
@@ -78,7 +78,7 @@ def trace(chain: Chain, pivot: float | None, solve: Solve) -> complex | None:
     while share < 1.0:
         step = min(step, 1.0 - share)
         expected = here + slope * step
-        values = _values(solve(under(chain, share + step)))
+        values = _values(solve(loaded_chain(chain, share + step)))
         if not len(values):
             return None
         away = np.sort(np.abs(values - expected))
@@ -93,18 +93,6 @@ def trace(chain: Chain, pivot: float | None, solve: Solve) -> complex | None:
         slope, here, share = (new - here) / step, new, share + step
         step = min(_SLOWER * step, _STEP)
     return here
-
-
-def under(chain: Chain, share: float) -> Chain:
-    """Return a chain under a share of all its axial forces."""
-    powers = {"axial_force": 1, "shear_turn": 1, "shear_work": 2}
-    columns = {
-        name: values * share ** powers.get(name, 0) for name, values in chain.columns.items()
-    }
-    points = tuple(replace(p, own_load=p.own_load * share) for p in chain.points)
-    left, right = chain.following
-    ends = left * share, right * share
-    return replace(chain, columns=columns, points=points, following=ends)
 
 
 def _values(found: Sequence[Eigenvalue]) -> Array:

@@ -30,6 +30,8 @@ _GAPS = 6  # above those wanted in which the line may stand
 _ENOUGH = 0.8  # of abs(g - 1) far off
 _DENSE = 6  # samples of the characteristic function for each eigenvalue
 _PASSES = 60
+_ROUNDED = 1e-7  # of a zero, up to which steps that shrink no more are rounding
+_STEPS = 1e-3, 1e-5  # share of an imaginary part: against rounding, and beside a pole
 _ON_AXIS = 1e-9  # share of an imaginary part that is rounding
 _SINE = math.sin(math.pi / 8)  # of theta/2 left of the line, as far off as 1.5 R
 
@@ -107,10 +109,14 @@ class Finder:
         self.following, self.fixed, self.zeros, self.width = Following(chain), fixed, zeros, width
         self.scale = omega2_scale(chain)
 
-    def find(self, wanted: int) -> FollowingRoots:
-        """Find the lowest eigenvalues, `wanted` at the least."""
+    def find(self, wanted: int, expected: Complex | None = None) -> FollowingRoots:
+        """Find the lowest eigenvalues, `wanted` at the least.
+
+        Where pairs are `expected`, and where two are about to meet, it looks first.
+        """
+        hints = np.zeros(0, complex) if expected is None else expected
         certificate, poles = self._certify(wanted)
-        places, values = self._scan(certificate.below, poles)
+        places, values = self._scan(certificate.below, poles, hints.real)
         missing = certificate.number - self.zeros
         brackets, floor = _changes(places, values), self._floor
         while len(brackets) > missing and floor < 1e-5 * self.scale:  # rounding beside zero
@@ -120,7 +126,8 @@ class Finder:
         found = self.shrink(brackets)
         found += [Eigenvalue(0, 0.0, (-floor, floor), (0, 0))] * self.zeros
         if len(brackets) < missing:
-            found += self._missing(missing - len(brackets), found, poles, certificate.below)
+            starts = [*hints.tolist(), *self._starts(poles, certificate.below)]
+            found += self._missing(missing - len(brackets), found, poles, starts, certificate.below)
         return FollowingRoots(_ordered(found), certificate, len(found) == certificate.number)
 
     # --- how many ---------------------------------------------------------------------------------
@@ -171,7 +178,7 @@ class Finder:
     def _floor(self) -> float:
         return 1e-14 * self.scale
 
-    def _scan(self, R: float, poles: list[Eigenvalue]) -> tuple[Array, Array]:
+    def _scan(self, R: float, poles: list[Eigenvalue], hints: Array) -> tuple[Array, Array]:
         """Return places on the axis up to R, and the characteristic function, zeros divided out."""
         lowest = -max(self.scale, -2 * poles[0].omega2)
         while beyond(self.following.far_off(np.array([-lowest])), 1.0)[0] > _ENOUGH:
@@ -180,7 +187,8 @@ class Finder:
         number = _DENSE * (len(inside) + 2)
         roots = np.linspace(-((-lowest) ** 0.25), R**0.25, 2 * number)
         places = np.sign(roots) * roots**4
-        places = np.concatenate([places, [lowest, R], 1.0001 * np.array(inside), self._near_zero()])
+        near = 1.0001 * np.array(inside), self._near_zero(), hints
+        places = np.concatenate([places, [lowest, R], *near])
         places = np.unique(places[(places >= lowest) & (places <= R)])
         places = places[np.abs(places) >= self._floor]
         return places, self.divided(places)
@@ -238,13 +246,18 @@ class Finder:
     # --- pairs that are missing -------------------------------------------------------------------
 
     def _missing(
-        self, number: int, found: list[Eigenvalue], poles: list[Eigenvalue], R: float
+        self,
+        number: int,
+        found: list[Eigenvalue],
+        poles: list[Eigenvalue],
+        starts: list[complex],
+        R: float,
     ) -> list[Eigenvalue]:
         """Find eigenvalues that change no sign: pairs, complex or too near to be told apart."""
         known: list[complex] = [value.omega2 for value in found]
         more: list[Eigenvalue] = []
         failed: list[complex] = []
-        for start in self._starts(poles, R):
+        for start in starts:
             root = self._newton(start, known, poles, R) if len(more) < number else None
             if root is None or any(abs(root - z) < 1e-6 * abs(z) for z in failed):
                 continue
@@ -276,7 +289,7 @@ class Finder:
 
         x = np.array([start, start * (1 + 1e-3), start * (1 + 1e-3j)])
         with np.errstate(all="ignore"):
-            y = deflated(x)
+            y, last = deflated(x), math.inf
             for _ in range(_PASSES):
                 step = _muller(x, y)
                 new = x[2] + step
@@ -284,8 +297,10 @@ class Finder:
                     return None
                 if new.imag < 0:
                     new = new.conjugate()
-                if abs(new - x[2]) <= 1e-13 * abs(new):
+                size = abs(new - x[2])
+                if size <= 1e-13 * abs(new) or last / 2 <= size <= _ROUNDED * abs(new):
                     break
+                last = size
                 if abs(new.imag) < 1e-12 * abs(new):
                     new = complex(new.real, 1e-12 * abs(new))
                 x, y = np.append(x[1:], new), np.append(y[1:], deflated(np.array([new])))
@@ -300,11 +315,12 @@ class Finder:
             if single:
                 return single
         fixed = np.array([p.omega2 for p in poles])
-        radius, step = max(self.width * abs(root) / 2, 4 * self._floor), 1e-5 * root.imag
+        radius = max(self.width * abs(root) / 2, 4 * self._floor)
         for _ in range(5):
             if radius >= 0.5 * root.imag:
                 return self._together(root, poles)
-            if holds_one(lambda z: self._off_axis(z, fixed), root, radius, step):
+            steps = [share * root.imag for share in _STEPS]
+            if any(holds_one(lambda z: self._sampled(z, fixed), root, radius, s) for s in steps):
                 edge = (root.real - radius, root.real + radius)
                 parts = (root.imag, -root.imag)
                 return [Eigenvalue(0, root.real, edge, (0, 0), part) for part in parts]
@@ -337,7 +353,11 @@ class Finder:
     def _off_axis(self, z: Complex, fixed: Array) -> Samples:
         """Sample g; where a circle meets the axis it is bounded from just beside."""
         reach = np.min(np.abs(z[:, None] - fixed), axis=1)
-        return self.following.samples(z + 1e-3j * reach * (np.abs(z.imag) < 1e-3 * reach), reach)
+        return self._sampled(z + 1e-3j * reach * (np.abs(z.imag) < 1e-3 * reach), fixed)
+
+    def _sampled(self, z: Complex, fixed: Array) -> Samples:
+        """Sample g at places that are off the axis."""
+        return self.following.samples(z, np.min(np.abs(z[:, None] - fixed), axis=1))
 
 
 def _ordered(found: list[Eigenvalue]) -> list[Eigenvalue]:

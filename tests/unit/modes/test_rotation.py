@@ -9,8 +9,9 @@ import pytest
 import antinode as an
 from antinode.modes import rotation
 from antinode.modes.following import eigenvalues_alone, translates_freely
+from antinode.modes.loading import loaded_chain
 from antinode.modes.rigid import pivot_of
-from antinode.modes.rotation import elastic, rigid_rotation, rotation_among, trace, under
+from antinode.modes.rotation import elastic, rigid_rotation, rotation_among, trace
 from antinode.riccati import readable
 
 sys.path.append(str(Path(__file__).parents[2] / "exact"))
@@ -60,7 +61,7 @@ def test_where_the_lowest_is_not_next_to_a_rigid_body_it_is_traced(monkeypatch, 
 def test_a_share_of_the_forces_scales_all_of_them():
     ends = an.Ends(right_follower=0.5)
     beam = an.Beam.from_stations([0, 1], [1, 1], [1, 1], axial_force=[4, 4], ends=ends)
-    half = under(beam.chain("bending"), 0.5)
+    half = loaded_chain(beam.chain("bending"), 0.5)
     assert half.following == (0.0, 1.0)
     assert np.all(half.axial_force == 2.0)
 
