@@ -166,8 +166,8 @@ class _Search:
             while evaluate(high)[0] <= allowed:
                 if high == self.hard:
                     raise ComputationError(
-                        f"{self.name(allowed)} diverges where the stiffness in shear is used up, or "
-                        f"not at all; ask for a largest factor below {high:g}"
+                        f"{self.name(allowed)} diverges where the stiffness in shear is used up, "
+                        f"or not at all; ask for a largest factor below {high:g}"
                     )
                 high = min(high * _GROWTH, self.hard)
             found.append(narrow(evaluate, allowed, low, high, WIDTH))
@@ -177,11 +177,8 @@ class _Search:
         self, index: int, bracket: tuple[float, float, float], value: float, error: float
     ) -> CriticalLoad:
         low, high, root = bracket
-        error = (
-            error
-            + max(high - root, root - low)
-            + value * rounding_of(self.backend, self.load(root))
-        )
+        rounding = value * rounding_of(self.backend, self.load(root))
+        error = error + max(high - root, root - low) + rounding
         low, high = min(low, value - error), max(high, value + error)
         counts = self.below(low), self.below(high)
         return _divergence(self.name(index), value, error, (low, high), counts)

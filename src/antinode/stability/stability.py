@@ -170,19 +170,14 @@ class _Walk:
                 found, warnings = sharpen(self.watcher, change, self.tolerance)
                 self.critical.append(found)
                 self.told += warnings
-                if found.kind == "flutter":
+                enough = self.most is None and found.certificate.unstable[1] >= _ENOUGH
+                if found.kind == "flutter" or enough:
                     self.reach = found.bracket[1]
                     return
             self.reach = max(self.reach, after.factor)
-            if self._enough(after.unstable):
+            lost = [each.load_factor for each in self.critical if each.load_factor > 0]
+            if self.most is None and lost and self.reach >= _FAR * lost[0]:
                 return
-
-    def _enough(self, unstable: int) -> bool:
-        """Tell whether the range is wide enough, if none was asked for."""
-        if self.most is not None:
-            return False
-        lost = [each.load_factor for each in self.critical if each.load_factor > 0]
-        return unstable >= _ENOUGH or bool(lost and self.reach >= _FAR * lost[0])
 
     def misses_some(self) -> bool:
         """Tell whether twice as many modes show more that are unstable."""
