@@ -77,7 +77,7 @@ NEUTRAL = (
 )
 
 
-def _rotation_warning(beam: Beam) -> str:
+def rotation_warning(beam: Beam) -> str:
     """Say why the rotation of a body that may turn diverges."""
     if any(beam.following()):
         return ROTATION_NOT_TURNED_BACK
@@ -115,7 +115,7 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
         complex_ = any(m.eigenvalue is not None for m in flutter)
         warnings.append(f"{_growing(flutter)}: {FLUTTERS_DAMPED if complex_ else FLUTTERS}")
     if any(m.kind == "divergent" and not m.number for m in modes):
-        warnings.append(_rotation_warning(beam))
+        warnings.append(rotation_warning(beam))
     neutral = [m.name for m in modes if 0 <= m.omega2 < m.error_omega2]
     if neutral:
         warnings.append(f"{', '.join(neutral)}: {NEUTRAL}")
@@ -125,7 +125,7 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
             f"{', '.join(shapeless)}: modes that coincide, whose shapes could not be told apart; "
             "the frequencies and their counts hold"
         )
-    return warnings + _shear_warnings(beam, modes) + _left_out(beam)
+    return warnings + _shear_warnings(beam, modes) + left_out(beam)
 
 
 def _growing(modes: list[Mode]) -> str:
@@ -133,7 +133,7 @@ def _growing(modes: list[Mode]) -> str:
     return ", ".join(f"{m.name} (by {m.eigenvalue_per_s.real:.4g} /s)" for m in modes)
 
 
-def _left_out(beam: Beam) -> list[str]:
+def left_out(beam: Beam) -> list[str]:
     """Say which columns the theory that was asked for does not use."""
     tables = ("shear_stiffness", "rotary_inertia_per_length")
     given = [name for name in tables if getattr(beam, name) is not None]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from antinode.beam.file import BeamFile
 from antinode.study.design.file import Study
 from antinode.study.design.points import Points, points_of
 from antinode.study.sensitivity.sensitivity import SensitivityResult, sensitivity
@@ -14,9 +16,10 @@ from antinode.study.sweep.figures import plot_sweep
 from antinode.study.sweep.report import by_shear, summary, warning_texts
 from antinode.study.sweep.sweep import sweep
 from antinode.text import counted
+from antinode.vehicle.case import Case
 
 from .blocks import Block, Document, Section, paragraph, runs, table, warnings
-from .inputs import case_inputs
+from .inputs import beam_inputs, case_inputs
 from .modal_sections import drawn
 from .numbers import number, percent
 from .provenance import Source, provenance_section, today
@@ -42,16 +45,16 @@ def study_report(study: Study, source: Source, command: str) -> tuple[Document, 
     told += warning_texts(found["warnings"], points.cases)
     uncertainty, left_out = _uncertainty(study)
     sections = [
-        method_section(study.solve.families, vehicle=True),
+        method_section(study.solve.families, vehicle=isinstance(study.case, Case)),
         Section("The study", tuple(_study(study, found))),
-        *_titled(case_inputs(study.case)),
+        *_inputs(study.case),
         Section("Frequencies", tuple(_frequencies(study, points, data, found))),
         *uncertainty,
         warnings_section([*told, *left_out]),
         provenance_section(source, _run_facts(study, found), command),
     ]
     document = Document(
-        title=f"Natural vibration of {study.case.vehicle.name}: a study",
+        title=f"Natural vibration of {study.subject.name}: a study",
         subtitle=study.name or counted(points.cases, "case"),
         facts=facts(source),
         brief=tuple(map(runs, _brief(found, [*told, *left_out]))),
@@ -61,8 +64,12 @@ def study_report(study: Study, source: Source, command: str) -> tuple[Document, 
     return document, [*told, *left_out]
 
 
-def _titled(sections: list[Section]) -> list[Section]:
-    return [Section("The case that varies", ()), *sections[1:]]
+def _inputs(case: Case | BeamFile) -> list[Section]:
+    """Return what the study does not vary."""
+    if isinstance(case, Case):
+        return [Section("The case that varies", ()), *case_inputs(case)[1:]]
+    (inputs,) = beam_inputs(case, case.beam())
+    return [replace(inputs, title="The beam that varies")]
 
 
 def _brief(found: dict[str, Any], told: list[str]) -> list[str]:

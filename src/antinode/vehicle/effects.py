@@ -18,6 +18,7 @@ import numpy as np
 from antinode.arrays import Array, Interpolation
 from antinode.beam.families import FAMILIES
 from antinode.beam.profile import Profile
+from antinode.inputs.places import Place
 
 from .balance import mass_of
 from .case import Case
@@ -32,7 +33,6 @@ from .derivatives import (
 from .forces import ForceOnBody, forces_of
 from .many_loads import loads_of_many
 from .numbers import Keys, ManyCases, Numbers, is_vectorised, replaced, value_at
-from .paths import Place
 from .theory import Sheared, sheared
 
 Forces = tuple[ForceOnBody[float], ...]

@@ -10,13 +10,13 @@ import numpy as np
 from pydantic import BaseModel
 
 from antinode.arrays import Array
+from antinode.inputs.places import Keys as Keys
 
 from .condition import OperatingCondition, Water
 from .options import Model
 from .vehicle import Vehicle
 
 Node = TypeVar("Node")
-Keys = tuple[str | int, ...]
 Numbers = Mapping[Keys, Array]
 """Arrays by the keys of what varies: numbers (cases,), columns (cases, rows)."""
 

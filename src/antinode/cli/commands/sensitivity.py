@@ -27,7 +27,7 @@ def sensitivity(
     Parameters
     ----------
     file
-        A study file whose inputs have distributions; or a case file, with --uncertain.
+        A study file whose inputs have distributions; or a case or beam file, with --uncertain.
     """
     from antinode.study.sensitivity.command import run_sensitivity
 

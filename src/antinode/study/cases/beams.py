@@ -59,7 +59,7 @@ def beams_of(cases: Cases) -> CaseBeams:
 
 
 def _on_arrays(cases: Cases, reason: Integers) -> CaseBeams:
-    case = cases.study.case
+    case = cases.study.vehicle_case
     loads = loads_of_many(case.many(cases.numbers, len(cases)))
     beams = ManyBeams(loads)
     reason = np.where(reason == 0, loads.refusals.code, reason)
@@ -84,7 +84,7 @@ def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
     """Build every case by itself."""
     beams: dict[int, Beam] = {}
     scalars = {name: np.full(len(cases), np.nan) for name in LOAD_OUTPUTS}
-    doubts = np.zeros((len(load_messages(cases.study.case)), len(cases)), dtype=bool)
+    doubts = np.zeros((len(load_messages(cases.study.vehicle_case)), len(cases)), dtype=bool)
     for i in np.flatnonzero(reason == 0).tolist():
         try:
             case = cases.case(i)

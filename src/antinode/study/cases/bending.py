@@ -91,7 +91,7 @@ def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
     refinement, share = 1, np.zeros(study.solve.modes)
     if not beams.exact:
         refinement, share = _refine(study, beams, rows, weight)
-    x = np.linspace(0, study.case.vehicle.length, points)
+    x = np.linspace(0, study.vehicle_case.vehicle.length, points)
     for chains in beams.chains(rows, refinement):
         at = chains.rows
         omega2, error, out.reason[at] = solve_free(chains, study.solve.modes)
@@ -102,13 +102,13 @@ def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
         out.reason[at[(out.reason[at] == PAST_BUCKLING) & (out.omega2[at, 0] >= 0)]] = 0
         if chains.more and "effect_of_shear" in study.outputs:
             rigid, *_ = solve_free(chains.rigid, study.solve.modes)
-            out.effect_of_shear[at] = _effect(omega2, rigid)
+            out.effect_of_shear[at] = effect_of_shear(omega2, rigid)
         if points:
             out.shapes[at] = _shapes(chains, omega2, out.reason[at], x)
     return out
 
 
-def _effect(omega2: Array, rigid: Array) -> Array:
+def effect_of_shear(omega2: Array, rigid: Array) -> Array:
     """Return the relative change of frequencies from those of Euler-Bernoulli, NaN without them."""
     with np.errstate(all="ignore"):
         effect = np.sqrt(omega2 / rigid) - 1
@@ -119,7 +119,8 @@ def _weight(study: Study, beams: CaseBeams, rows: Integers) -> Array:
     """Return what the error of a chain goes with: the slope of N, where only N varies."""
     size = np.abs(beams.scalars["a_X"])
     largest = np.max(size[rows])
-    stepped = study.case.vehicle.interpolation == "step" and not study.case.vehicle.masses
+    vehicle = study.vehicle_case.vehicle
+    stepped = vehicle.interpolation == "step" and not vehicle.masses
     weight = np.maximum(size, 0.05 * largest) if stepped and largest > 0 else np.ones(len(size))
     return np.nan_to_num(weight, nan=1.0)
 

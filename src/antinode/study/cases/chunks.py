@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers
+from antinode.beam.file import BeamFile
 from antinode.modes.hertz import error_hz, growth_rate, hertz
 from antinode.study.design.file import Study
 from antinode.study.design.points import Points
@@ -23,6 +24,7 @@ from .beams import CaseBeams, beams_of
 from .bending import IN_BATCHES, Eigenvalues, solve_bending
 from .reasons import failed
 from .shear import model_errors
+from .structures import solve_structures
 from .values import Cases
 from .warned import type_of_bits, warned
 
@@ -43,22 +45,37 @@ def solve_values(points: Points, values: Array) -> Arrays:
     """Compute the same of any cases, by the values of their inputs, (cases, inputs)."""
     study = points.study
     cases = Cases(study, points.variables, values)
-    beams = beams_of(cases)
     size = study.tracking.points if points.tracked else 0
-    found, shear = _every_family(cases, beams, size)
+    solve = _of_beams if isinstance(study.case, BeamFile) else _of_vehicles
+    reason, bits, shapes, every = solve(cases, size)
     out: Arrays = {v.name: cases.values[:, k] for k, v in enumerate(points.variables)}
-    out["reason"] = found.reason.astype(np.int16)
-    doubts = np.concatenate([cases.doubts(beams.scalars["mass"]), beams.doubts])
-    bits = warned(found, shear, doubts)
+    out["reason"] = reason.astype(np.int16)
     out["warned"] = bits.astype(type_of_bits(study))
-    loaded = found.reason < OUT_OF_RANGE
-    scalars = {name: np.where(loaded, values, np.nan) for name, values in beams.scalars.items()}
-    every = scalars | _of_modes(found) | {"model_error": shear}
-    every["effect_of_shear"] = found.effect_of_shear
     out |= {name: every[name] for name in study.outputs}
     if points.tracked:
-        out["shape"] = found.shapes
+        out["shape"] = shapes
     return out
+
+
+_Solved = tuple[Integers, Integers, Array, dict[str, Array]]
+"""Reasons, bits of warnings, shapes, and all outputs by their names."""
+
+
+def _of_vehicles(cases: Cases, size: int) -> _Solved:
+    beams = beams_of(cases)
+    found, shear = _every_family(cases, beams, size)
+    doubts = np.concatenate([cases.doubts(beams.scalars["mass"]), beams.doubts])
+    bits = warned(found, shear, doubts)
+    loaded = found.reason < OUT_OF_RANGE
+    scalars = {name: np.where(loaded, values, np.nan) for name, values in beams.scalars.items()}
+    every = scalars | _of_modes(found.omega2, found.error)
+    every |= {"model_error": shear, "effect_of_shear": found.effect_of_shear}
+    return found.reason, bits, found.shapes, every
+
+
+def _of_beams(cases: Cases, size: int) -> _Solved:
+    found = solve_structures(cases, size)
+    return found.reason, found.warned, found.shapes, found.of_modes | {"mass": found.mass}
 
 
 def _every_family(cases: Cases, beams: CaseBeams, points: int) -> tuple[Eigenvalues, Array]:
@@ -87,12 +104,11 @@ def _every_family(cases: Cases, beams: CaseBeams, points: int) -> tuple[Eigenval
     return found, np.where(bad[:, None], np.nan, np.concatenate(shear, axis=1))
 
 
-def _of_modes(found: Eigenvalues) -> dict[str, Array]:
+def _of_modes(omega2: Array, error: Array) -> dict[str, Array]:
     """Return the outputs that have one number a mode."""
-    omega2 = found.omega2
     return {
         "omega2": omega2,
         "frequency_hz": hertz(omega2),
-        "error_hz": error_hz(omega2, found.error),
+        "error_hz": error_hz(omega2, error),
         "growth_rate_per_s": growth_rate(omega2),
     }

@@ -41,7 +41,7 @@ def model_errors(cases: Cases, beams: CaseBeams, family: FamilyName, found: Eige
     """
     effect = np.full(found.omega2.shape, np.nan)
     rows = np.flatnonzero(~failed(found.reason))
-    left_out = cases.study.case.model.theory == "euler_bernoulli"
+    left_out = cases.study.vehicle_case.model.theory == "euler_bernoulli"
     if FAMILIES[family].rotary and left_out and len(rows):
         with np.errstate(all="ignore"):
             _estimate(_Bodies(cases, np.asarray(beams.scalars["mass"])), beams, found, rows, effect)
@@ -114,11 +114,11 @@ class _Bodies:
     @property
     def x(self) -> Array:
         """The stations [m]."""
-        return self.cases.study.case.vehicle.stations.x
+        return self.cases.study.vehicle_case.vehicle.stations.x
 
     def column(self, name: str) -> Array:
         """Return the means of a column over the intervals, shape (cases, intervals)."""
-        vehicle = self.cases.study.case.vehicle
+        vehicle = self.cases.study.vehicle_case.vehicle
         whole = self.cases.numbers.get(("vehicle", "stations", name))
         if whole is None:
             own = getattr(vehicle.stations, name)
@@ -129,7 +129,7 @@ class _Bodies:
     def factors(self, rows: Integers) -> Array:
         """Return what the weights of some cases are multiplied by, (2, rows, 1, intervals)."""
         EI, EA = (self.column(name)[rows] for name in ("bending_stiffness", "axial_stiffness"))
-        stations = self.cases.study.case.vehicle.stations
+        stations = self.cases.study.vehicle_case.vehicle.stations
         given = stations.radius_of_gyration is not None or stations.wall is not None
         rotary = np.ones(EI.shape) if given else EI / EA
         return np.stack([rotary, EI**2 / EA / self.mass[rows, None]])[:, :, None]

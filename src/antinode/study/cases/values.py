@@ -10,12 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arrays import Array
+from antinode.beam.file import BeamFile
 from antinode.beam.plausible import doubts_of_many
 from antinode.beam.profile import Profile
 from antinode.study.design.file import Study
+from antinode.study.design.subject import OfBeam, OfVehicle
 from antinode.study.design.variables import Variable
 from antinode.vehicle.case import Case
-from antinode.vehicle.columns import column_values
 from antinode.vehicle.numbers import Keys, replaced, value_at
 
 from .allowed import outside_range
@@ -56,23 +57,24 @@ class Cases:
         """Return what varies, and in which cases a column is none that a body can have."""
         given = list(zip(self.variables, self.values.T, strict=True))
         found = {v.keys: self._number(v, x) for v, x in given if v.kind == "number"}
-        rows = {k: v for k, v in found.items() if k[:2] == _STATIONS}
+        stations = self.study.subject.stations
+        rows = {k: v for k, v in found.items() if k[: len(stations)] == stations}
         whole = self._columns([(v, x) for v, x in given if v.kind == "column"])
         whole = self._with_rows(whole, rows)
         odd = np.zeros(len(self), dtype=bool)
         for keys, columns in whole.items():
             own = self._column(keys)
-            wrong = ~np.all(np.isfinite(columns) & ((columns > 0) | (own == 0)), axis=1)
+            wrong = ~np.all(self.study.subject.possible(columns, own), axis=1)
             whole[keys] = np.where(wrong[:, None], own, columns)
             odd |= wrong
         return {**{k: v for k, v in found.items() if k not in rows}, **whole}, odd
 
     def _number(self, variable: Variable, given: Array) -> Array:
-        start = value_at(self.study.case, variable.keys) if variable.given.factor else None
+        start = value_at(self.study.subject.tree, variable.keys) if variable.given.factor else None
         return given if start is None else np.asarray(given * start)
 
     def _column(self, keys: Keys) -> Array:
-        return column_values(self.study.case.vehicle.stations, keys[2:])
+        return self.study.subject.values(keys)
 
     def _columns(self, given: Sequence[tuple[Variable, Array]]) -> Numbers:
         """Return the columns times the factors on their control points."""
@@ -97,8 +99,13 @@ class Cases:
         return found
 
     def case(self, i: int) -> Case:
-        """Return one case with its own numbers, unchecked."""
-        return case_of(self.study.case, self.numbers, i)
+        """Return one case of a vehicle with its own numbers, unchecked."""
+        return case_of(self.study.vehicle_case, self.numbers, i)
+
+    def problem(self, i: int) -> Case | BeamFile:
+        """Return one case with its own numbers, unchecked, of a vehicle or of a beam."""
+        subject = self.study.subject
+        return subject.changed(self.numbers, i) if isinstance(subject, OfBeam) else self.case(i)
 
     def structure(self, i: int) -> bytes:
         """Return what stands for the body of a case, whatever its loads: equal for equal ones."""
@@ -107,7 +114,7 @@ class Cases:
 
     def doubts(self, mass: Array) -> npt.NDArray[np.bool_]:
         """Tell which bodies, of some mass [kg], are not of this world; `beam.plausible` has why."""
-        vehicle = self.study.case.vehicle
+        vehicle = self.study.vehicle_case.vehicle
 
         def profile(name: str) -> Profile:
             """Return a stiffness of all bodies."""
@@ -124,9 +131,18 @@ class Cases:
             if variable.kind == "column":
                 wrong |= ~(given > 0)
             elif variable.kind == "number":
-                values = self.numbers.get(variable.keys, given)
-                wrong |= outside_range(self.study.case, variable.keys, values)
+                wrong |= self._outside(variable, self.numbers.get(variable.keys, given))
         return wrong
+
+    def _outside(self, variable: Variable, values: Array) -> npt.NDArray[np.bool_]:
+        """Tell which values of a number are outside its range; of a row the beam itself judges."""
+        if isinstance(self.study.subject, OfVehicle):
+            return outside_range(self.study.vehicle_case, variable.keys, values)
+        place = variable.place
+        if place is None or place.keys[0] == self.study.subject.stations[0]:
+            return np.zeros(len(values), dtype=bool)
+        above = values > place.low if place.strict else values >= place.low
+        return np.asarray(~(np.isfinite(values) & above & (values <= place.high)))
 
 
 def _is_of_body(keys: Keys) -> bool:

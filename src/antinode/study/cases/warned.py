@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.arrays import Array, Integers
+from antinode.beam.file import BeamFile
 from antinode.beam.plausible import OF_MANY
 from antinode.modes.warnings import (
     LOWEST_DIVERGES,
@@ -22,6 +23,7 @@ from antinode.modes.warnings import (
 )
 from antinode.study.design.file import Study
 
+from .beam_warnings import beam_messages
 from .beams import load_messages
 from .bending import Eigenvalues
 from .reasons import failed
@@ -41,10 +43,12 @@ _LAST = 62
 
 def messages(study: Study) -> tuple[str, ...]:
     """Return what a case of a study can warn of, in the order of the bits."""
+    if isinstance(study.case, BeamFile):
+        return beam_messages(study.case)
     of_modes = list(_OF_MODES)
-    if any(study.case.model.follow):
+    if any(study.vehicle_case.model.follow):
         of_modes[of_modes.index(ROTATION_DIVERGES)] = ROTATION_NOT_TURNED_BACK
-    texts = (*of_modes, *OF_MANY, *load_messages(study.case))
+    texts = (*of_modes, *OF_MANY, *load_messages(study.vehicle_case))
     return (*texts[:_LAST], "; or ".join(texts[_LAST:])) if len(texts) > _LAST else texts
 
 

@@ -1,12 +1,13 @@
-"""The study file: a case, the inputs of it that vary, how they vary, and what to compute.
+"""The study file: a case or a beam, what of it varies, how it varies, and what to compute.
 
-It has the name of a case file, tables `[[inputs]]` for numbers and columns of the case, `[design]`,
-and perhaps `outputs`, `[solve]`, `[run]`, `[tracking]` and `[figure]`.
+It has the name of a case or beam file, tables `[[inputs]]` for numbers and columns of it,
+`[design]`, and perhaps `outputs`, `[solve]`, `[run]`, `[tracking]` and `[figure]`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -14,12 +15,15 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from antinode.beam.families import BENDING, FamilyName
+from antinode.beam.file import TABLES, BeamFile, load_beam
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
-from antinode.inputs.reading import read_beside_case, read_cells
+from antinode.inputs.reading import read_beside_case, read_cells, read_toml
 from antinode.inputs.units import Frozen, Length, Number, Unit
 from antinode.text import short
 from antinode.vehicle.case import Case, check_real, load_case
+
+from .subject import OfBeam, OfVehicle, subject_of
 
 Quantity = float | str
 """A number, or a text with the unit of the key that it belongs to."""
@@ -44,6 +48,10 @@ LOAD_OUTPUTS = {
     "beta": ("rad/s^2", "angular acceleration, nose-up"),
 }
 """Unit and meaning of the outputs that have one number a case."""
+OF_BEAMS = ("mass",)
+"""Those of them that a beam has."""
+OF_BEAMS_ALONE = ("damping_ratio",)
+"""Those of modes that a vehicle has not."""
 MODE_OUTPUTS = {
     "frequency_hz": ("Hz", "natural frequency; NaN where divergent or not solved"),
     "error_hz": ("Hz", "the frequency lies within this of frequency_hz"),
@@ -59,7 +67,11 @@ MODE_OUTPUTS = {
         "NaN where the theory leaves them out",
     ),
     "omega2": ("rad^2/s^2", "eigenvalue"),
-    "growth_rate_per_s": ("1/s", "growth rate of a divergent mode; NaN where omega2 >= 0"),
+    "growth_rate_per_s": (
+        "1/s",
+        "growth rate of a divergent mode, or of a complex one: of dashpots, flutter; else NaN or 0",
+    ),
+    "damping_ratio": ("1", "-Re s over abs(s) of a beam's mode: 0 without dashpots"),
 }
 """Unit and meaning of the outputs that have one number a mode."""
 OutputName = Literal[
@@ -69,6 +81,7 @@ OutputName = Literal[
     "effect_of_shear",
     "omega2",
     "growth_rate_per_s",
+    "damping_ratio",
     "sigma",
     "cavity_length",
     "cavity_diameter",
@@ -245,15 +258,28 @@ class _Choices(Frozen):
 class StudyFile(_Choices):
     """The file as it stands in TOML."""
 
-    case: str = Field(min_length=1, description="name of the case file, beside this one")
+    case: str = Field(
+        min_length=1, description="name of the case file, or of a beam file, beside this one"
+    )
 
 
 class Study(_Choices):
-    """A case, and what of it varies."""
+    """A case or a beam file, and what of it varies."""
 
-    case: Annotated[Case, AfterValidator(check_real)] = Field(
+    case: Annotated[Case, AfterValidator(check_real)] | BeamFile = Field(
         description="what the inputs are changed in"
     )
+
+    @cached_property
+    def subject(self) -> OfVehicle | OfBeam:
+        """The case or the beam, as what varies asks for it."""
+        return subject_of(self.case)
+
+    @property
+    def vehicle_case(self) -> Case:
+        """The case of a vehicle, which this study is of."""
+        assert isinstance(self.case, Case)
+        return self.case
 
     @model_validator(mode="before")
     @classmethod
@@ -261,13 +287,13 @@ class Study(_Choices):
         if not isinstance(data, dict) or "outputs" in data:
             return data
         case = data.get("case")
-        effect = shear_output(case) if isinstance(case, Case) else "model_error"
+        effect = shear_output(case) if isinstance(case, Case | BeamFile) else "model_error"
         return data | {"outputs": ("frequency_hz", "error_hz", effect)}
 
 
-def shear_output(case: Case) -> OutputName:
+def shear_output(case: Case | BeamFile) -> OutputName:
     """Return the output that tells what shear does: solved, or estimated where it is left out."""
-    return "effect_of_shear" if case.model.theory == "timoshenko" else "model_error"
+    return "effect_of_shear" if subject_of(case).solves_shear else "model_error"
 
 
 def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
@@ -286,7 +312,7 @@ def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
         If anything in it is wrong.
     """
     path = Path(path)
-    tables, where = read_beside_case(path, assignments, "a study file")
+    tables, where = read_beside_case(path, assignments, "a study file", of_beams=True)
     file = validate(StudyFile, tables, where)
     kept: dict[str, Any] = {k: getattr(file, k) for k in _Choices.model_fields}
     if "outputs" not in file.model_fields_set:
@@ -296,7 +322,15 @@ def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
             say = "leave out [[inputs]], and write kind = 'zip'"
             raise InputError(f"{where}: design.table stands for all inputs; {say}")
         kept["inputs"] = _read_table(path.parent / file.design.table)
-    return Study(case=check_real(load_case(path.parent / file.case)), **kept)
+    return Study(case=load_subject(path.parent / file.case), **kept)
+
+
+def load_subject(path: Path, assignments: Iterable[str] = ()) -> Case | BeamFile:
+    """Read what a study varies something in: the case of a vehicle, or a beam file."""
+    tables = {"beam": {}} if path.suffix.lower() in TABLES else read_toml(path)
+    if "beam" in tables and "vehicle" not in tables:
+        return load_beam(path, assignments)
+    return check_real(load_case(path, assignments))
 
 
 def _read_table(path: Path) -> tuple[StudyInput, ...]:

@@ -15,11 +15,11 @@ from functools import cached_property
 import numpy as np
 
 from antinode.arrays import Array
-from antinode.beam.families import FAMILIES
+from antinode.beam.file import BeamFile
 from antinode.errors import InputError
 from antinode.text import nearest, short
 
-from .file import LOAD_OUTPUTS, MODE_OUTPUTS, MOST_CASES, Study
+from .file import LOAD_OUTPUTS, MODE_OUTPUTS, MOST_CASES, OF_BEAMS, OF_BEAMS_ALONE, Study
 from .samples import SobolSamples, latin_column, random_samples
 from .variables import Variable, variables_of
 
@@ -146,7 +146,7 @@ def points_of(study: Study) -> Points:
     """
     if not study.inputs:
         raise InputError("inputs is empty; give at least one [[inputs]], or design.table")
-    variables = tuple(v for given in study.inputs for v in variables_of(study.case, given))
+    variables = tuple(v for given in study.inputs for v in variables_of(study.subject, given))
     _check_names(variables)
     _check_families(study)
     kind = study.design.kind
@@ -233,15 +233,21 @@ def _check_figure(study: Study, variables: tuple[Variable, ...]) -> None:
 
 
 def _check_families(study: Study) -> None:
-    """Refuse a family of modes for which the vehicle has no columns."""
-    stations = study.case.vehicle.stations
+    """Refuse a family of modes for which there are no columns, and outputs that a beam has not."""
+    is_beam = isinstance(study.case, BeamFile)
     for family in study.solve.families:
-        absent = [t for t in FAMILIES[family].tables if getattr(stations, t, 0.0) is None]
-        if absent:
+        if absent := study.subject.lacks(family):
+            whose = "the beam does" if is_beam else "the vehicle's stations do"
             raise InputError(
-                f"solve.families: {family} modes need {absent[0]}, which the vehicle's stations "
-                "do not have: add the column, or leave the family out"
+                f"solve.families: {family} modes need {absent}, which {whose} "
+                "not have: add the column, or leave the family out"
             )
+    loads = [name for name in study.outputs if name in LOAD_OUTPUTS and name not in OF_BEAMS]
+    if is_beam and loads:
+        allowed = ", ".join((*MODE_OUTPUTS, *OF_BEAMS))
+        raise InputError(f"outputs: {loads[0]} is of vehicles; of a beam there are {allowed}")
+    if not is_beam and (none := [name for name in study.outputs if name in OF_BEAMS_ALONE]):
+        raise InputError(f"outputs: {none[0]} is of beams with dashpots; leave it out")
 
 
 def _check_names(variables: tuple[Variable, ...]) -> None:

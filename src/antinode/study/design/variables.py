@@ -11,27 +11,14 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.errors import InputError
+from antinode.inputs.places import Keys, Place
 from antinode.inputs.units import to_si
-from antinode.text import nearest, short
-from antinode.vehicle.case import Case
-from antinode.vehicle.columns import column_keys, interpolation_matrix
-from antinode.vehicle.condition import OperatingCondition
-from antinode.vehicle.numbers import Keys, value_at
-from antinode.vehicle.paths import Place, find_place, without_effect
-from antinode.vehicle.vehicle import Vehicle
+from antinode.text import short
+from antinode.vehicle.columns import interpolation_matrix
+from antinode.vehicle.numbers import value_at
 
 from .file import StudyInput
-
-_COLUMNS = (
-    "mass_per_length",
-    "bending_stiffness",
-    "axial_stiffness",
-    "radius",
-    "torsional_stiffness",
-    "polar_inertia_per_length",
-    "shear_stiffness",
-    "rotary_inertia_per_length",
-)
+from .subject import OfBeam, OfVehicle
 
 
 @dataclass(frozen=True)
@@ -55,6 +42,8 @@ class Variable:
         What the case has; 1 for a factor.
     weights : array, shape (rows,), or None
         Of a control point on the rows of its column.
+    key : str
+        The path as the file has it.
     """
 
     name: str
@@ -65,11 +54,7 @@ class Variable:
     place: Place | None
     start: float | None
     weights: Array | None
-
-    @property
-    def key(self) -> str:
-        """The path as the case has it."""
-        return ".".join(map(str, self.keys))
+    key: str = "time"
 
     def number(self, value: float | str, what: str) -> float:
         """Return a value of the file in SI, or say what is wrong with it."""
@@ -184,18 +169,17 @@ def to_si_pure(value: float | str, name: str) -> float:
         raise InputError(f"inputs, {name}: sd = {short(value)}; {error}") from error
 
 
-def variables_of(case: Case, given: StudyInput) -> list[Variable]:
+def variables_of(subject: OfVehicle | OfBeam, given: StudyInput) -> list[Variable]:
     """Return an input as variables: one, or one for each control point of a column."""
     if given.key == "time":
         return [Variable(given.name or "time", given, "time", ("time",), "s", None, None, None)]
-    bare = given.key.removeprefix("vehicle.").removeprefix("stations.")
-    if bare.partition(":")[0] in _COLUMNS:
-        return _column_variables(case, given, bare)
+    column = _reworded(lambda: subject.column(given.key))
+    if column is not None:
+        return _column_variables(subject, given, column)
     if given.control_points is not None:
         raise InputError(f"inputs: key = {short(given.key)}; control_points are for columns")
-    _check_bare(given.key)
-    place = _reworded(lambda: find_place(case, given.key))
-    start = value_at(case, place.keys)
+    place = _reworded(lambda: subject.place(given.key))
+    start = value_at(subject.tree, place.keys)
     if given.factor and start is None:
         raise InputError(
             f"inputs: key = {short(given.key)}: the case has no value for a factor to multiply"
@@ -205,40 +189,26 @@ def variables_of(case: Case, given: StudyInput) -> list[Variable]:
             f"inputs: key = {short(given.key)}: the case has 0 there, which no factor changes; "
             "leave out factor and give values of its own"
         )
-    if why := without_effect(case, place.keys):
+    if why := subject.without_effect(place.keys):
         raise InputError(f"inputs: key = {short(given.key)} changes nothing: {why}")
-    name = given.name or str(place.keys[-1] if isinstance(place.keys[-1], str) else place.text)
+    name = given.name or subject.short_name(place)
     unit = "1" if given.factor else place.unit or "1"
-    return [
-        Variable(
-            name, given, "number", place.keys, unit, place, 1.0 if given.factor else start, None
-        )
-    ]
+    start = 1.0 if given.factor else start
+    key = subject.written(place.keys)
+    return [Variable(name, given, "number", place.keys, unit, place, start, None, key)]
 
 
-def _check_bare(key: str) -> None:
-    """Refuse a name by itself that neither the condition nor the case has."""
-    known = [*OperatingCondition.model_fields, *_COLUMNS, "time"]
-    tables = [*Case.model_fields, *Vehicle.model_fields]
-    first = key.partition(".")[0].partition("[")[0].strip()
-    if first not in known and first not in tables:
-        raise InputError(f"inputs: key = {short(key)} leads nowhere; {nearest(first, known)}")
-
-
-def _column_variables(case: Case, given: StudyInput, bare: str) -> list[Variable]:
-    stations = case.vehicle.stations
-    keys: Keys = (
-        "vehicle",
-        "stations",
-        *_reworded(lambda: column_keys(stations, bare)),
-    )
-    x, step = stations.x, case.vehicle.interpolation == "step"
+def _column_variables(subject: OfVehicle | OfBeam, given: StudyInput, keys: Keys) -> list[Variable]:
+    x, step = subject.x, subject.interpolation == "step"
     rows = (x[1:] + x[:-1]) / 2 if step else x
-    points = given.control_points
+    points, key = given.control_points, subject.written(keys)
+    bare = ":".join(map(str, keys[len(subject.stations) :]))
+    if why := subject.without_effect(keys):
+        raise InputError(f"inputs: key = {short(given.key)} changes nothing: {why}")
     name = given.name or bare
     if points is None:
         ones = np.ones(len(x))
-        return [Variable(name, given, "column", keys, "1", None, 1.0, ones)]
+        return [Variable(name, given, "column", keys, "1", None, 1.0, ones, key)]
     places = np.linspace(x[0], x[-1], points) if isinstance(points, int) else np.array(points)
     if places[0] < x[0] or places[-1] > x[-1]:
         say = f"they must lie on the body, from {x[0]:g} to {x[-1]:g} m"
@@ -247,7 +217,7 @@ def _column_variables(case: Case, given: StudyInput, bare: str) -> list[Variable
     if step:
         weights = np.concatenate([weights, weights[-1:]])
     return [
-        Variable(f"{name} at {p:g} m", given, "column", keys, "1", None, 1.0, weights[:, k])
+        Variable(f"{name} at {p:g} m", given, "column", keys, "1", None, 1.0, weights[:, k], key)
         for k, p in enumerate(places.tolist())
     ]
 

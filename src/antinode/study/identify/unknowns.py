@@ -16,12 +16,13 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.errors import InputError
+from antinode.inputs.places import Place
 from antinode.inputs.units import to_si
 from antinode.text import short
 from antinode.vehicle.case import Case
 from antinode.vehicle.columns import column_values, with_column
 from antinode.vehicle.numbers import replaced, value_at
-from antinode.vehicle.paths import Place, find_place
+from antinode.vehicle.paths import find_place
 
 from .columns import Column, make_column, second_differences
 from .file import Distribution, IdentificationProblem, Parameter, Quantity

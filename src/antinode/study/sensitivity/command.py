@@ -11,15 +11,15 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from antinode.beam.file import TABLES
 from antinode.errors import InputError
 from antinode.inputs.reading import read_toml
 from antinode.show.outcome import check_plot, draw, print_json
 from antinode.show.printing import fitting, new_table, show_warnings
-from antinode.study.design.file import Study, StudyInput, load_study
+from antinode.study.design.file import Study, StudyInput, load_study, load_subject
 from antinode.study.progress import cases_progress, end_progress
 from antinode.study.sweep.report import by_shear, warning_texts
 from antinode.text import counted, short
-from antinode.vehicle.case import check_real, load_case
 
 from .sensitivity import SensitivityResult, sensitivity
 
@@ -70,15 +70,15 @@ def run_sensitivity(
 
 
 def read_uncertain(file: Path, assignments: Iterable[str], uncertain: Sequence[str]) -> Study:
-    """Read a study file; or a case file, whose uncertain inputs are given one by one."""
+    """Read a study file; or a case or a beam file, whose uncertain inputs are given one by one."""
     inputs = tuple(_uncertain_input(text) for text in uncertain)
-    if "vehicle" in read_toml(file):
+    if file.suffix.lower() in TABLES or {"vehicle", "beam"} & set(read_toml(file)):
         if not inputs:
             raise InputError(
-                f"{file}: this is a case; say what is uncertain, e.g. --uncertain speed=2%, or "
-                "name a study file"
+                f"{file}: this is a case, or a beam; say what is uncertain, e.g. --uncertain "
+                "speed=2%, or name a study file"
             )
-        return Study(case=check_real(load_case(file, assignments)), inputs=inputs)
+        return Study(case=load_subject(file, assignments), inputs=inputs)
     study = load_study(file, assignments)
     return study.model_copy(update={"inputs": (*study.inputs, *inputs)})
 

@@ -3,7 +3,8 @@
     result = sensitivity(study, 1024)
 
 Global: mean, deviation, 95 % band and Sobol indices of every frequency over the distributions of
-the inputs. Local: derivatives at the case itself, from the mode shapes, in % per %.
+the inputs. Local: derivatives at the case itself, of vehicles from the mode shapes, of beams by
+differences, in % per %.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.families import FamilyName
+from antinode.beam.file import BeamFile
 from antinode.errors import AntinodeError, ComputationError, InputError
 from antinode.modes.hertz import hertz
 from antinode.modes.result import null
@@ -32,6 +34,7 @@ from antinode.vehicle.derivatives import EigenvalueDerivatives
 from antinode.vehicle.effects import by_logarithm, effect_of_number, effect_of_radius
 from antinode.vehicle.numbers import value_at
 
+from .beam_slopes import beam_slopes
 from .indices import Indices, sobol_indices
 
 if TYPE_CHECKING:
@@ -209,7 +212,7 @@ def _result(study: Study, points: Points, data: xarray.Dataset, number: int) -> 
     ]
     left_out = tuple(_left_out(modes, hz, number))
     return SensitivityResult(
-        name=study.name or study.case.vehicle.name,
+        name=study.name or study.subject.name,
         inputs=tuple(v.name for v in points.variables),
         units=tuple(v.unit for v in points.variables),
         modes=tuple(modes),
@@ -285,22 +288,29 @@ def _farthest(effect: Array) -> float:
 
 
 def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]:
-    """Return frequency [Hz] and its derivatives by the inputs, at the case, of every mode.
+    """Return frequency [Hz] and its derivatives by the inputs, at the case, of every mode."""
+    if isinstance(study.case, BeamFile):
+        return beam_slopes(points)
+    return _vehicle_slopes(study, study.vehicle_case, points)
+
+
+def _vehicle_slopes(study: Study, case: Case, points: Points) -> dict[str, tuple[float, Array]]:
+    """Return the same of a vehicle.
 
     The derivatives come from the mode shapes, and from the loads by the chain rule.
     """
     wanted: dict[FamilyName, int] = dict.fromkeys(study.solve.families, study.solve.modes)
     found: dict[str, tuple[float, Array]] = {}
     try:
-        refinement = sufficient_refinement(study.case, wanted, 1e-9)
-        (solved,) = eigenvalues_of([study.case], [wanted], refinement)
+        refinement = sufficient_refinement(case, wanted, 1e-9)
+        (solved,) = eigenvalues_of([case], [wanted], refinement)
     except AntinodeError:
         nothing = np.full(len(points.variables), np.nan)
         return dict.fromkeys(mode_names(study), (np.nan, nothing))
     for family, number in wanted.items():
         omega2 = solved.modes[family].omega2
         exact = solved.sensitivity(family)
-        by_input = np.stack([_by_input(study.case, exact, v) for v in points.variables], axis=1)
+        by_input = np.stack([_by_input(case, exact, v) for v in points.variables], axis=1)
         for k in range(number):
             with np.errstate(all="ignore"):
                 hz = hertz(float(omega2[k]))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from antinode.beam.file import BeamFile
 from antinode.study.cases.chunks import mode_names
 from antinode.study.cases.reasons import WHY, failed
 from antinode.study.cases.warned import counted_warnings, messages, type_of_bits
@@ -137,14 +138,14 @@ def coordinates_of(points: Points) -> dict[str, Coordinate]:
 
 def tracking_points(study: Study) -> npt.NDArray[np.float64]:
     """Return where shapes are compared [m]."""
-    return np.linspace(0, study.case.vehicle.length, study.tracking.points)
+    return study.subject.points(study.tracking.points)
 
 
 def attributes(points: Points) -> dict[str, Any]:
     """Return settings and provenance: what says which study, case and version this is."""
     study = points.study
     return {
-        "title": study.name or f"Sweep of {study.case.vehicle.name}",
+        "title": study.name or f"Sweep of {study.subject.name}",
         "source": f"antinode {__version__}",
         "store_format": FORMAT,
         "antinode_version": __version__,
@@ -209,7 +210,7 @@ def _settings(study: Study) -> dict[str, Any]:
     return kept
 
 
-def case_hash(case: Case) -> str:
+def case_hash(case: Case | BeamFile) -> str:
     """Return what stands for a case: equal for equal numbers."""
     return _hash(case.model_dump(mode="json"))
 

@@ -286,6 +286,6 @@ def _padded(x: Array) -> tuple[float, float]:
 def _title(
     study: Study, dataset: xarray.Dataset, name: str, lines: list[npt.NDArray[np.int64]]
 ) -> str:
-    title = study.name or f"{study.case.vehicle.name}: frequencies over {name.replace('_', ' ')}"
+    title = study.name or f"{study.subject.name}: frequencies over {name.replace('_', ' ')}"
     others: list[Any] = [n for n in dataset.attrs["input_names"] if n != name]
     return f"{title} ({len(lines)} lines: {', '.join(others[:3])})" if len(lines) > 1 else title

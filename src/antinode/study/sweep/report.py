@@ -32,7 +32,7 @@ def summary(points: Points, dataset: xarray.Dataset) -> dict[str, Any]:
     modes = [] if "frequency_hz" not in dataset else _ranges(dataset)
     return {
         "schema_version": 1,
-        "name": points.study.name or points.study.case.vehicle.name,
+        "name": points.study.name or points.study.subject.name,
         "cases": points.cases,
         "failed": sum(number for code, (number, _) in codes.items() if _fails(code)),
         "past_buckling": codes.get(PAST_BUCKLING, (0, 0))[0],
@@ -152,7 +152,7 @@ def failure_text(points: Points, index: int) -> str:
         for v, x in list(zip(points.variables, values[0], strict=True))[:6]
     )
     try:
-        cases.case(0).beam()
+        cases.problem(0).beam()
     except AntinodeError as error:
         return f"{told}: {error}"
     return told

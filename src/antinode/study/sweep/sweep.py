@@ -227,11 +227,10 @@ def tracked(points: Points, arrays: Arrays) -> Arrays:
     if not points.tracked:
         return {}
     study = points.study
-    mass = study.case.vehicle.mass_distribution(study.case.condition.burn_fraction)
     x = tracking_points(study)
     hz = arrays["frequency_hz"] if "frequency_hz" in arrays else np.zeros(arrays["shape"].shape[:2])
     shapes = np.where(failed(arrays["reason"])[:, None, None], np.nan, arrays["shape"])
-    found = track(shapes, hz, neighbours(points.shape), mass.at(x), study.solve.modes)
+    found = track(shapes, hz, neighbours(points.shape), study.subject.mass_at(x), study.solve.modes)
     own = np.take_along_axis(hz, np.maximum(found.mode, 0), axis=1)
     return {
         "tracked_mode": found.mode.astype(np.int16),
