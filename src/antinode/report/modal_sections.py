@@ -74,12 +74,13 @@ def _frequency_row(mode: Mode) -> tuple[str, ...]:
         rate = f"grows at {number(mode.growth_rate_per_s)} /s"
         error = small(mode.error_growth_rate_per_s)
         return mode.name, mode.kind, rate, f"{error} /s", "–", counts, "–"
-    exact = mode.omega2 == 0
+    zero = mode.omega2 == 0
+    exact = zero and not mode.error_hz > 0
     low, high = apart(*mode.bracket_hz)
     return (
         mode.name,
         mode.kind,
-        "0" if exact else _frequency(mode),
+        "0" if zero else _frequency(mode),
         "exact" if exact else small(mode.error_hz),
         "–" if exact else f"{low} … {high}",
         counts,

@@ -157,12 +157,12 @@ def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
             "",
             "",
         )
-    exact = mode.omega2 == 0.0
+    zero = mode.omega2 == 0.0
     return (
         name,
         mode.kind,
-        "0" if exact else frequency_text(mode),
-        "exact" if exact else f"{mode.error_hz:.1e}",
+        "0" if zero else frequency_text(mode),
+        "exact" if zero and not mode.error_hz > 0 else f"{mode.error_hz:.1e}",
         percent(mode.shift),
         "" if mode.by_shear is None else percent(mode.by_shear),
     )

@@ -81,6 +81,19 @@ def test_frequencies_near_zero_keep_their_digits(folder, EI, digits):
     assert float(row[3]) == pytest.approx(true, rel=10.0 ** (1 - digits))
 
 
+def test_a_zero_with_an_error_is_not_exact(folder):
+    """A spring of 1e-12 N m/rad gives 1.7e-9 Hz; only 0 +- 5e-9 Hz is known of it."""
+    (folder / "held.toml").write_text(
+        "beam.stations = { x = [0, 10], mass_per_length = [100, 100], bending_stiffness = [1e7, "
+        "1e7] }\n[[beam.springs]]\nx = 0\nrotational = 1e-12"
+    )
+    rows = run("beam", "held.toml", "--modes", "1").out.splitlines()
+    rigid, held = (next(r.split() for r in rows if n in r) for n in ("rigid tr", "bending 1"))
+    assert rigid[3:5] == ["0", "exact"]
+    assert held[3] == "0"
+    assert float(held[4]) >= 1.7434550e-9
+
+
 @pytest.mark.parametrize("width", [10, 40, 60])
 @pytest.mark.parametrize(
     "line",
