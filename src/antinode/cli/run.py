@@ -12,6 +12,8 @@ import sys
 import warnings
 from collections.abc import Sequence
 from contextlib import suppress
+from pathlib import Path
+from typing import TextIO
 
 from cyclopts import CycloptsError, UnusedCliTokensError
 
@@ -35,6 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     arguments : sequence of str, optional
         By default those of the process.
     """
+    sys.stdout, sys.stderr = (s or _nowhere() for s in (sys.stdout, sys.stderr))  # closed: `>&-`
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
@@ -89,6 +92,10 @@ def _usage(error: CycloptsError) -> str:
     if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
         return f"{short(error.unused_tokens[0])} is one argument too many (see '{command} --help')"
     return f"{str(error).rstrip('.')} (see '{command} --help')"
+
+
+def _nowhere() -> TextIO:
+    return Path(os.devnull).open("w", encoding="utf-8")
 
 
 def _close_stdout() -> None:

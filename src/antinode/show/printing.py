@@ -118,13 +118,32 @@ def modes_table(result: ModalResult, out: Console) -> Table:
     return fitting((_modes_table(result, *choice) for choice in choices), out)
 
 
-def fitting(tables: Iterable[Table], out: Console) -> Table:
-    """Return the first table that fits the console, or else the last one."""
+def fitting(tables: Iterable[Table], out: Console, *, wrapped: bool = False) -> Table:
+    """Return the first table that fits the console, or else the last one.
+
+    Its first column may wrap between words where that is allowed.
+    """
     for table in tables:
-        options = out.options.update(width=10 * _WIDTH)
-        if Measurement.get(out, options, table).maximum <= out.width:
+        if _is_whole(table, out) if wrapped else _natural_width(table, out) <= out.width:
             break
     return table
+
+
+def _natural_width(table: Table, out: Console) -> int:
+    return Measurement.get(out, out.options.update(width=10 * _WIDTH), table).maximum
+
+
+def _is_whole(table: Table, out: Console) -> bool:
+    """Tell whether the console shows all of a table's text."""
+    with out.capture() as shown:
+        out.print(table)
+    text = shown.get()
+    words = {word for cell in table.columns[0].cells for word in str(cell).split()}
+    return _CUT not in text and all(word in text for word in words)
+
+
+_CUT = "\N{HORIZONTAL ELLIPSIS}"
+"""What rich puts where text does not fit; a column that has no room at all it leaves out."""
 
 
 def _modes_table(result: ModalResult, kept: Sequence[int], brief: bool) -> Table:
@@ -263,12 +282,17 @@ def show_end_forces(out: Console, choices: Sequence[Choice]) -> None:
     if not choices:
         return
     shown = min(len(choices[0].frequencies_hz), _MOST_SHOWN)
+    tables = (_end_force_table(choices, number) for number in range(shown, 0, -1))
+    out.print(fitting(tables, out, wrapped=True))
+
+
+def _end_force_table(choices: Sequence[Choice], shown: int) -> Table:
     table = new_table("bending f [Hz], if", *map(str, range(1, shown + 1)))
     for choice in choices:
         values = [f"{f:.4f}" if math.isfinite(f) else "" for f in choice.frequencies_hz[:shown]]
         marks = "" if choice.proven else " (not proven)"
         _row(table, choice.name + (" (this file)" if choice.stated else marks), *values)
-    out.print(table)
+    return table
 
 
 def show_water(out: Console, case: Case, result: ModalResult) -> None:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from rich.console import Console
+from rich.table import Table
 from rich.text import Text
 
 from antinode.response.units import STANDARD_GRAVITY
 
-from .printing import new_table, show_warnings
+from .printing import fitting, new_table, show_warnings
 
 if TYPE_CHECKING:
     from antinode.response.equipment import Verdict
@@ -31,10 +32,33 @@ def show_response(out: Console, result: Any) -> None:
     show_warnings(out, result.warnings)
 
 
+Row = tuple[str, ...]
+
+
+def _show_rows(
+    out: Console,
+    heads: Row,
+    rows: Sequence[Row],
+    left: Collection[int],
+    narrow: Sequence[tuple[int, ...]],
+) -> None:
+    """Print a table; where the console is narrow, with the first choice of columns that fits."""
+    every = tuple(range(len(heads)))
+    tables = (_table(heads, rows, left, kept) for kept in (every, *narrow))
+    out.print(fitting(tables, out, wrapped=True))
+
+
+def _table(heads: Row, rows: Sequence[Row], left: Collection[int], kept: tuple[int, ...]) -> Table:
+    table = new_table(*(heads[k] for k in kept), left=[i for i, k in enumerate(kept) if k in left])
+    for row in rows:
+        table.add_row(*(Text(row[k]) for k in kept))
+    return table
+
+
 def _show_harmonic(out: Console, result: HarmonicResult) -> None:
     f = result.frequency_hz
     out.print(Text(f"{len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz"))
-    table = new_table("output", "peak [Hz]", "amplitude", "unit", "+-", "mode", left=(0, 3, 5))
+    rows: list[Row] = []
     for row, output in enumerate(result.outputs):
         highest = sorted(result.peaks[row], key=lambda peak: -peak.size)[:_MOST_PEAKS]
         for peak in highest:
@@ -46,13 +70,13 @@ def _show_harmonic(out: Console, result: HarmonicResult) -> None:
                 mode_near(result.modes, peak.frequency_hz),
             )
             name = output.name if peak is highest[0] else ""
-            table.add_row(*(Text(cell) for cell in (name, *cells)))
+            rows.append((name, *cells))
         if not highest:
             k = int(np.argmax(np.abs(result.values[row])))
             largest = (f"{f[k]:.6g}", f"{abs(result.values[row, k]):.5g}", output.unit)
-            more = (f"{result.error[row]:.1e}", "no peak")
-            table.add_row(*(Text(cell) for cell in (output.name, *largest, *more)))
-    out.print(table)
+            rows.append((output.name, *largest, f"{result.error[row]:.1e}", "no peak"))
+    heads = ("output", "peak [Hz]", "amplitude", "unit", "+-", "mode")
+    _show_rows(out, heads, rows, (0, 3, 5), [(0, 1, 2, 3, 4)])
     show_verdicts(out, result.verdicts)
 
 
@@ -71,8 +95,7 @@ def mode_near(modes: tuple[Basis, ...], frequency_hz: float) -> str:
 def _show_random(out: Console, result: RandomResult) -> None:
     f = result.frequency_hz
     out.print(Text(f"band {f[0]:g} to {f[-1]:g} Hz, exposure {result.duration_s:g} s"))
-    heads = ("output", "rms", "unit", "+-", "3 sigma", "largest", "up/s", "mostly by")
-    table = new_table(*heads, left=(0, 2, 7))
+    rows: list[Row] = []
     for output, own in zip(result.outputs, result.statistics, strict=True):
         size = scale_of(output.unit)
         cells = (
@@ -84,8 +107,10 @@ def _show_random(out: Console, result: RandomResult) -> None:
             f"{own.crossings_per_s:.4g}",
             mostly(own),
         )
-        table.add_row(*(Text(cell) for cell in (output.name, *cells)))
-    out.print(table)
+        rows.append((output.name, *cells))
+    heads = ("output", "rms", "unit", "+-", "3 sigma", "largest", "up/s", "mostly by")
+    narrow = [(0, 1, 2, 3, 4, 5, 7), (0, 1, 2, 3, 4, 5, 6), (0, 1, 2, 3, 4, 5), (0, 1, 2, 3)]
+    _show_rows(out, heads, rows, (0, 2, 7), narrow)
     _show_envelope(out, result)
     show_verdicts(out, result.verdicts)
 
@@ -123,8 +148,7 @@ def show_verdicts(out: Console, verdicts: Sequence[Verdict]) -> None:
     """Print the equipment line by line."""
     if not verdicts:
         return
-    heads = ("equipment", "x [m]", "margin [dB]", "verdict", "at [Hz]", "mode", "force", "rms [g]")
-    table = new_table(*heads, left=(0, 3, 5, 6))
+    rows: list[Row] = []
     for own in verdicts:
         rms = "" if own.rms is None else f"{own.rms / STANDARD_GRAVITY:.3g}"
         cells = (
@@ -136,8 +160,10 @@ def show_verdicts(out: Console, verdicts: Sequence[Verdict]) -> None:
             own.force,
             rms,
         )
-        table.add_row(*(Text(cell) for cell in (own.name, *cells)))
-    out.print(table)
+        rows.append((own.name, *cells))
+    heads = ("equipment", "x [m]", "margin [dB]", "verdict", "at [Hz]", "mode", "force", "rms [g]")
+    narrow = [(0, 2, 3, 4, 5, 6, 7), (0, 2, 3, 4, 5, 6), (0, 2, 3, 4, 5), (0, 2, 3)]
+    _show_rows(out, heads, rows, (0, 3, 5, 6), narrow)
 
 
 class Shown(NamedTuple):
@@ -157,13 +183,13 @@ def _show_transient(out: Console, result: TransientResult) -> None:
     out.print(
         Text(f"{t[0]:g} to {t[-1]:g} s, {len(t)} times; {result.count} modes and a static rest")
     )
-    table = new_table("output", "largest", "unit", "+-", "at [s]", left=(0, 2))
-    rows = zip(result.outputs, result.largest, result.peak_error, strict=True)
-    for output, (time, value), error in rows:
+    found = zip(result.outputs, result.largest, result.peak_error, strict=True)
+    rows: list[Row] = []
+    for output, (time, value), error in found:
         size = scale_of(output.unit)
         cells = (f"{value / size.factor:.5g}", size.unit, f"{error / size.factor:.1e}")
-        table.add_row(*(Text(cell) for cell in (output.name, *cells, f"{time:.5g}")))
-    out.print(table)
+        rows.append((output.name, *cells, f"{time:.5g}"))
+    _show_rows(out, ("output", "largest", "unit", "+-", "at [s]"), rows, (0, 2), [(0, 1, 2, 3)])
 
 
 def _show_shock(out: Console, result: ShockResult) -> None:
@@ -171,13 +197,14 @@ def _show_shock(out: Console, result: ShockResult) -> None:
     out.print(
         Text(f"oscillators of {f[0]:g} to {f[-1]:g} Hz, Q = {result.q:g}; {result.count} modes")
     )
-    table = new_table("output", "largest SRS", "unit", "+-", "at [Hz]", left=(0, 2))
+    rows: list[Row] = []
     for row, output in enumerate(result.outputs):
         size, k = scale_of(output.unit), int(np.argmax(result.srs[row]))
         cells = (f"{result.srs[row, k] / size.factor:.5g}", size.unit)
         more = (f"{result.error[row] / size.factor:.1e}", f"{f[k]:.5g}")
-        table.add_row(*(Text(cell) for cell in (output.name, *cells, *more)))
-    out.print(table)
+        rows.append((output.name, *cells, *more))
+    heads = ("output", "largest SRS", "unit", "+-", "at [Hz]")
+    _show_rows(out, heads, rows, (0, 2), [(0, 1, 2, 3)])
     show_verdicts(out, result.verdicts)
 
 

@@ -2,6 +2,8 @@
 
 import errno
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -11,7 +13,7 @@ from antinode.show import printing
 from antinode.study.design.points import points_of
 from antinode.study.identify.fit import Search
 from antinode.vehicle.case import load_case
-from cli_run import refused, run
+from cli_run import python, refused, run
 from study_text import study
 
 SPEEDS = 'inputs = [{ key = "speed", values = [60, 80] }]\nsolve.modes = 1\n'
@@ -97,14 +99,39 @@ def test_a_zero_with_an_error_is_not_exact(folder):
 @pytest.mark.parametrize("width", [10, 40, 60])
 @pytest.mark.parametrize(
     "line",
-    ["sweep study.toml", "verify", "sensitivity case.toml --uncertain thrust=9% --samples 8"],
+    [
+        "sweep study.toml",
+        "verify",
+        "sensitivity case.toml --uncertain thrust=9% --samples 8",
+        "modes case.toml",
+        "loads case.toml",
+        "beam beam.toml --buckling",
+        "ask study.toml --smallest f1 --quantiles f1 --where speed>9 --share f1>3",
+        "response equipment/response.toml",
+    ],
 )
 def test_no_table_cuts_its_numbers(folder, monkeypatch, width, line):
+    run("init", "--example", "response", "equipment")
     monkeypatch.setenv("COLUMNS", str(width))
     ended = run(*line.split())
     assert ended.code == 0
     assert "\u2026" not in ended.out
     assert max(map(len, ended.out.splitlines())) <= 60
+    for name in ("acceleration", "gyro", "battery") if "response" in line else ():
+        assert name in ended.out.partition("rms")[2]  # the names of rows are left to none
+
+
+@pytest.mark.parametrize("closed", ["stdout", "stderr"])
+def test_a_closed_stream_is_no_bug(folder, closed):
+    """A service starts programs so (`>&-`): they have nobody to talk to."""
+    arguments = python("modes", "case.toml", "--modes", "1" if closed == "stdout" else "x")
+    number = {"stdout": 1, "stderr": 2}[closed]
+    script = f"import os, sys; os.close({number}); os.execv(sys.argv[1], sys.argv[1:])"
+    ended = subprocess.run(
+        [sys.executable, "-c", script, *arguments], capture_output=True, text=True, check=False
+    )
+    assert ended.returncode == (0 if closed == "stdout" else 2)
+    assert "bug" not in ended.stdout + ended.stderr
 
 
 def test_fins_are_named_where_there_are_any(folder):

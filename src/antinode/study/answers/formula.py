@@ -155,6 +155,8 @@ class _Walk:
     def value(self, node: ast.AST) -> _Value:
         """Return the value of a part of it."""
         how = getattr(self, f"_{type(node).__name__.lower()}", None)
+        if isinstance(node, ast.Tuple):
+            raise InputError("these are several; ask for each by an option of its own")
         if how is None:
             raise InputError(f"{type(node).__name__} has no place in a formula")
         found: _Value = how(node)
