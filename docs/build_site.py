@@ -104,7 +104,8 @@ def write_api(folder: Path) -> None:
 def documented() -> list[str]:
     """Return the modules that make an interface, in the order of the architecture page."""
     text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
-    homes = {f"{home.replace('.', '/')}.py" for home in antinode._HOME.values()} | MORE
+    names = (home.partition(":")[0] for home in antinode._HOME.values())
+    homes = {f"{name.replace('.', '/')}.py" for name in names} | MORE
     found = []
     for part in re.split(r"^## ", text, flags=re.MULTILINE):
         files = re.findall(r"^\| `([\w/]+\.py)`", part, re.MULTILINE)
@@ -122,7 +123,10 @@ def overview(modules: list[str]) -> str:
         if name.startswith("__"):
             continue
         first = (item.__doc__ or "").strip().splitlines()[0]
-        lines += [f"   * - :py:obj:`an.{name} <{item.__module__}.{name}>`", f"     - {first}"]
+        lines += [
+            f"   * - :py:obj:`an.{name} <{item.__module__}.{item.__name__}>`",
+            f"     - {first}",
+        ]
     lines += ["", "Modules, from the ground up:", "", ".. toctree::", "   :maxdepth: 1", ""]
     return "\n".join([*lines, *(f"   {name}" for name in modules), ""])
 

@@ -12,6 +12,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .app.server import run_app
     from .beam.attachments import Dashpot, Joint, PointFeedback, PointMass, Spring
     from .beam.beam import Beam
     from .beam.ends import Ends
@@ -20,23 +21,31 @@ if TYPE_CHECKING:
     from .beam.sections.material import Material
     from .beam.sections.section import Section
     from .errors import AntinodeError, ComputationError, InputError
+    from .examples import write_example
+    from .exchange.convert import convert_file as convert
     from .modes.batch import BatchResult, BeamBatch, solve_many
     from .modes.buckling import Buckling, buckling
     from .modes.frequencies import Frequencies, natural_frequencies
     from .modes.result import ModalResult, Mode
     from .modes.solve import solve_modes
+    from .modes.verify import run_checks as verify
+    from .paper.comparison import compare as reproduce
+    from .report.command import report_file as write_report
     from .response.damping import Damping
     from .response.file import load_response
     from .response.frequency import frequency_response
     from .response.quantities import Base, Force, Output
     from .response.shock import srs
-    from .response.solve import solve_response
+    from .response.solve import beam_response, solve_response
     from .stability.result import CriticalLoad, Stability
     from .stability.stability import stability
+    from .study.answers.answers import Answers, case_table
+    from .study.answers.search import search
     from .study.design.file import Study, load_study
     from .study.identify.file import IdentificationProblem, load_identification
     from .study.identify.identification import identify
     from .study.identify.result import Identification
+    from .study.schema import schema
     from .study.sensitivity.sensitivity import sensitivity
     from .study.sweep.folder import open_store
     from .study.sweep.sweep import sweep
@@ -44,10 +53,20 @@ if TYPE_CHECKING:
     from .vehicle.condition import OperatingCondition, Water
     from .vehicle.loads import Loads, compute_loads
     from .vehicle.options import Model
+    from .vehicle.statics import static_shape
     from .vehicle.vehicle import Cavitator, FinSet, Stations, Vehicle
     from .version import __version__
 
 _HOME = {
+    "beam_response": "response.solve",
+    "convert": "exchange.convert:convert_file",
+    "reproduce": "paper.comparison:compare",
+    "run_app": "app.server",
+    "schema": "study.schema",
+    "static_shape": "vehicle.statics",
+    "verify": "modes.verify:run_checks",
+    "write_example": "examples",
+    "write_report": "report.command:report_file",
     "BatchResult": "modes.batch",
     "BeamBatch": "modes.batch",
     "Buckling": "modes.buckling",
@@ -150,9 +169,11 @@ __all__ = [
     "Vehicle",
     "Water",
     "__version__",
+    "beam_response",
     "buckling",
     "case_table",
     "compute_loads",
+    "convert",
     "drawn_beam",
     "frequency_response",
     "identify",
@@ -163,6 +184,9 @@ __all__ = [
     "load_study",
     "natural_frequencies",
     "open_store",
+    "reproduce",
+    "run_app",
+    "schema",
     "search",
     "sensitivity",
     "solve_many",
@@ -170,14 +194,19 @@ __all__ = [
     "solve_response",
     "srs",
     "stability",
+    "static_shape",
     "sweep",
+    "verify",
+    "write_example",
+    "write_report",
 ]
 
 
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module 'antinode' has no attribute '{name}'")
-    found = getattr(importlib.import_module(f".{_HOME[name]}", __name__), name)
+    home, _, own = _HOME[name].partition(":")
+    found = getattr(importlib.import_module(f".{home}", __name__), own or name)
     globals()[name] = found
     return found
 

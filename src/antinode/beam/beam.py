@@ -23,6 +23,7 @@ import numpy.typing as npt
 from antinode.arguments import ByValue, owned
 from antinode.arrays import Array, Integers, Interpolation, distinct
 from antinode.errors import InputError
+from antinode.methods import BeamMethods
 from antinode.riccati.chain import Chain
 from antinode.riccati.points import Point
 
@@ -50,8 +51,8 @@ if TYPE_CHECKING:
     from .sections.drawing import Drawing
 
 
-@dataclass(frozen=True, eq=False)
-class Beam(ByValue):
+@dataclass(frozen=True, eq=False, repr=False)
+class Beam(BeamMethods, ByValue):
     """A straight non-uniform beam under static axial force: Euler-Bernoulli's or Timoshenko's.
 
     Parameters

@@ -25,6 +25,7 @@ from antinode.inputs.explain import validate
 from antinode.inputs.override import override
 from antinode.inputs.reading import COLUMN_UNITS, Tables, naming, read_tables
 from antinode.inputs.units import Frozen, Number
+from antinode.methods import BeamMethods
 from antinode.text import counted
 
 from .axial import apply_loads
@@ -253,7 +254,7 @@ class BeamTable(AttachmentTables):
         return self
 
 
-class BeamFile(Frozen):
+class BeamFile(BeamMethods, Frozen):
     """A beam file with everything in it."""
 
     table: BeamTable = Field(alias="beam", description="the beam itself")

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import get_args
 
+from antinode.arguments import choice
 from antinode.errors import InputError
 from antinode.show.writing import check_output
 from antinode.text import nearest, one_line
@@ -16,7 +17,7 @@ from .formats import INPUTS, OUTPUTS, Format, format_of
 from .inputs import Choices, Found, read_beam
 from .mesh.analyses import Analysis
 from .outputs import Modes, check_libraries, write_beam, write_modes
-from .units import SI
+from .units import SI, SYSTEMS, SystemName
 
 _BEAMS = ("toml", "csv", "xlsx")
 _TABLES = ("csv", "xlsx")
@@ -74,6 +75,35 @@ def convert(request: Request) -> tuple[str, ...]:
     modes = _solved(found, request.modes)
     system = request.choices.system
     return (*notes, *write_modes(request.target, modes, how_out, system, request.analysis))
+
+
+def convert_file(
+    source: str | Path, target: str | Path, *, modes: int | None = None, units: SystemName = "SI"
+) -> tuple[str, ...]:
+    """Convert a beam, or measurements, from one file format to another, by their endings.
+
+    Parameters
+    ----------
+    source, target : str or Path
+        One of the target's name is replaced.
+    modes : int, optional
+        To solve for, where the target holds modes; by default the file's.
+    units : {"SI", "mm-t-s", "mm-kg-ms", "in-lbf-s", "ft-lbf-s"}
+        Of a deck, or of measurements that do not say them.
+
+    Returns
+    -------
+    tuple of str
+        What the new file leaves out, or does not hold exactly.
+
+    Raises
+    ------
+    InputError
+        If the one cannot be read, or the other one not written.
+    """
+    choice("units", units, SystemName)
+    choices = Choices(system=SYSTEMS[units])
+    return convert(Request(Path(source), Path(target), choices=choices, modes=modes))
 
 
 def _left_out(found: Found, how_out: Format) -> tuple[str, ...]:

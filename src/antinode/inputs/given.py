@@ -77,4 +77,6 @@ def _factor_of(values: Any, unit: str) -> float:
     """Return the factor of a column whose attributes name a unit; 1 without."""
     attributes = getattr(values, "attrs", None)
     written = attributes.get("units") if isinstance(attributes, Mapping) else None
+    if isinstance(written, Mapping):  # of a whole DataFrame, by its columns
+        written = written.get(getattr(values, "name", None))
     return 1.0 if written in (None, "", "1") else unit_factor(str(written), unit)

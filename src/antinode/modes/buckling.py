@@ -40,6 +40,7 @@ from .loading import (
 from .refinement import Refinement, layer_length, varying_segments
 from .result import ModalResult
 from .rigid import rigid_modes
+from .solve import HasBeam, beam_of
 
 _GROWTH = 4.0
 _NEAR = 1e-3  # relative distance of the next chain's factor, mostly
@@ -79,14 +80,15 @@ class Buckling:
 
 @out_of_range_is_an_error()
 def buckling(
-    beam: Beam, tolerance: float = 1e-6, *, backend: BackendName = "auto"
+    problem: Beam | HasBeam, tolerance: float = 1e-6, *, backend: BackendName = "auto"
 ) -> Buckling | None:
     """Find the load factor at which the first supported bending mode diverges.
 
     Parameters
     ----------
-    beam : Beam
-        Under the axial force that is to be multiplied.
+    problem : Beam or case
+        Under the axial force that is to be multiplied; a beam, or anything with a method
+        ``beam()``.
     tolerance : float
         Largest relative error by what varies inside segments.
     backend : {"auto", "numpy", "numba"}
@@ -103,6 +105,7 @@ def buckling(
     ComputationError
         If the tolerance is out of reach.
     """
+    beam = beam_of(problem)
     if any(beam.following()):
         raise InputError(
             "the force of an end turns with it: counts of negative eigenvalues, which find the "

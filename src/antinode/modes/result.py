@@ -16,8 +16,10 @@ from antinode.beam.attachments import attachment_dict
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
+from antinode.methods import ModeMethods, ModesMethods
 from antinode.riccati.chain import Chain
 from antinode.riccati.shapes import propagate
+from antinode.text import counted
 from antinode.version import __version__
 
 from .dataset import modal_dataset
@@ -52,8 +54,8 @@ def not_modelled(beam: Beam, damped: bool = False) -> tuple[str, ...]:
     )
 
 
-@dataclass(frozen=True, eq=False)
-class Mode(ByValue):
+@dataclass(frozen=True, eq=False, repr=False)
+class Mode(ModeMethods, ByValue):
     """One natural mode with its certificate.
 
     Attributes
@@ -219,8 +221,8 @@ class Solution:
         return propagate(self.chain, start, self.omega2, x - nodes[segment], segment)
 
 
-@dataclass(frozen=True, eq=False)
-class ModalResult(ByValue):
+@dataclass(frozen=True, eq=False, repr=False)
+class ModalResult(ModesMethods, ByValue):
     """The modes of a beam, in order of family and omega^2.
 
     Attributes
@@ -255,7 +257,7 @@ class ModalResult(ByValue):
     certificate: Mapping[str, Any] = field(default_factory=lambda: {"kind": "counts"})
 
     def __str__(self) -> str:
-        lines = [f"{self.beam.name}: {len(self.modes)} modes"]
+        lines = [f"{self.beam.name}: {counted(len(self.modes), 'mode')}"]
         for mode in self.modes:
             value = (
                 f"{mode.frequency_hz:12.6g} Hz{_plus_minus(mode.error_hz)}"

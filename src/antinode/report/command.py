@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 import time
+from collections.abc import Iterable
 from pathlib import Path
 
 from antinode.beam.file import TABLES, BeamFile, load_beam
@@ -51,6 +52,43 @@ def run_report(
         print_json(data)
     else:
         say_written(output)
+
+
+def report_file(
+    file: str | Path,
+    output: str | Path,
+    assignments: Iterable[str] = (),
+    *,
+    modes: int | None = None,
+    tolerance: float | None = None,
+) -> list[str]:
+    """Write the report on the case, beam or study of a file, as `antinode report` does.
+
+    Parameters
+    ----------
+    file : str or Path
+    output : str or Path
+        .html or .pdf.
+    assignments : iterable of str
+        Overrides such as ``"condition.speed=100m/s"``.
+    modes, tolerance
+        By default the file's.
+
+    Returns
+    -------
+    list of str
+        What the report warns of.
+
+    Raises
+    ------
+    InputError
+        If anything in the file is wrong, or the report cannot be written.
+    """
+    check_output(Path(output), ENDINGS)
+    check_libraries(Path(output))
+    document, told = make_report(Path(file), tuple(assignments), modes, tolerance)
+    write_report(document, Path(output))
+    return told
 
 
 def make_report(

@@ -343,7 +343,7 @@ def load_response(path: str | Path, assignments: Iterable[str] = ()) -> Problem:
     with naming(where):
         file.damping_table.damping()
         _ = file.outputs
-        beam = _with_equipment(beam, file)
+        beam = with_equipment(beam, file)
     return Problem(file, beam, path.parent, where)
 
 
@@ -361,7 +361,8 @@ def _beam_of(path: Path) -> Beam:
     return load_beam(path).beam()
 
 
-def _with_equipment(beam: Beam, file: ResponseFile) -> Beam:
+def with_equipment(beam: Beam, file: ResponseFile) -> Beam:
+    """Return the beam with the masses of the equipment that it does not have yet."""
     from antinode.beam.attachments import PointMass
 
     for item in file.equipment:

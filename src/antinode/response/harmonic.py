@@ -11,6 +11,7 @@ from antinode.arguments import ByValue
 from antinode.arrays import Array, Numbers
 from antinode.beam.beam import Beam
 from antinode.beam.limits import out_of_range_is_an_error
+from antinode.methods import ResponseMethods
 
 from .damping import Damping
 from .equipment import Verdict, items_of
@@ -25,8 +26,8 @@ from .quantities import Drive, Output
 _ABOVE = 1.2  # of the highest frequency up to which resonances are looked up
 
 
-@dataclass(frozen=True, eq=False)
-class HarmonicResult(ByValue):
+@dataclass(frozen=True, eq=False, repr=False)
+class HarmonicResult(ResponseMethods, ByValue):
     """Numbers amplitudes of outputs over frequency.
 
     Attributes

@@ -21,6 +21,7 @@ from antinode.arrays import Array, Numbers
 from antinode.beam.families import FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import InputError
+from antinode.methods import ResponseMethods
 
 from .damping import Damping
 from .equipment import Item, Verdict, items_of
@@ -133,8 +134,8 @@ class OutputStatistics:
     by_drive: tuple[tuple[str, float], ...]
 
 
-@dataclass(frozen=True, eq=False)
-class RandomResult(ByValue):
+@dataclass(frozen=True, eq=False, repr=False)
+class RandomResult(ResponseMethods, ByValue):
     """Spectra of outputs, and what they come to.
 
     Attributes

@@ -18,6 +18,7 @@ from antinode.arguments import ByValue, numbers, within
 from antinode.arrays import Array
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import InputError
+from antinode.methods import ResponseMethods
 
 from .damping import Damping
 from .equipment import Verdict, items_of
@@ -116,8 +117,8 @@ def _cubic_peak(x: Array, rate: Array, h: float) -> float:
     return best
 
 
-@dataclass(frozen=True, eq=False)
-class ShockResult(ByValue):
+@dataclass(frozen=True, eq=False, repr=False)
+class ShockResult(ResponseMethods, ByValue):
     """Shock response spectra of outputs.
 
     Attributes

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from antinode.beam.beam import Beam
 from antinode.errors import ComputationError
+from antinode.modes.solve import HasBeam, beam_of
 
-from .file import Problem, load_response
+from .file import Problem, ResponseFile, load_response, with_equipment
 from .quantities import Drive
 
 if TYPE_CHECKING:
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
     from .transient import TransientResult
 
     Result = HarmonicResult | RandomResult | TransientResult | ShockResult
+
+Kind = Literal["harmonic", "random", "transient", "shock"]
 
 
 def solve_response(problem: Problem | str | Path) -> Result:
@@ -62,6 +65,51 @@ def solve_response(problem: Problem | str | Path) -> Result:
         )
         result = replace(result, warnings=(told, *result.warnings))
     return result
+
+
+def beam_response(
+    problem: Beam | HasBeam,
+    kind: Kind = "harmonic",
+    *,
+    modes: int | None = None,
+    folder: str | Path = ".",
+    **tables: Any,
+) -> Result:
+    """Compute a response of a beam, or of a vehicle in a condition, without a response file.
+
+    Parameters
+    ----------
+    problem : Beam or case
+        A beam, or anything with a method ``beam()``.
+    kind : {"harmonic", "random", "transient", "shock"}
+    modes : int, optional
+        That are summed where histories are (transient, shock); by default enough of them.
+    folder : str or Path
+        Where files that the tables name lie.
+    **tables
+        Those of a response file, as dicts and lists: `forces` or `base`, `outputs`, `equipment`,
+        `frequency`, `time`, `damping`, `random`, `shock`, `coherence`. Values may carry units:
+        ``outputs=[{"x": "1.2 m", "quantity": "acceleration"}]``.
+
+    Returns
+    -------
+    HarmonicResult, RandomResult, TransientResult or ShockResult
+        By `kind`.
+
+    Raises
+    ------
+    InputError
+        If a table is wrong or missing.
+    ComputationError
+        If no trustworthy answer could be computed.
+    """
+    from antinode.inputs.explain import validate
+
+    beam = beam_of(problem)
+    asked = {"of": beam.name, "kind": kind} | ({} if modes is None else {"modes": modes})
+    where = "response(...)"
+    file = validate(ResponseFile, {"response": asked, **tables}, where)
+    return solve_response(Problem(file, with_equipment(beam, file), Path(folder), where))
 
 
 def unstable(beam: Beam, drives: tuple[Drive, ...]) -> list[Mode]:

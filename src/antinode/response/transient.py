@@ -17,6 +17,7 @@ from antinode.arguments import ByValue
 from antinode.arrays import Array
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import InputError
+from antinode.methods import ResponseMethods
 
 from .damping import Damping
 from .file import Problem
@@ -35,8 +36,8 @@ _TAIL = 2.0  # times the upper half of the modes, that all beyond may do
 _WANTED = 1e-3  # error over peak that is enough where no number of modes is given
 
 
-@dataclass(frozen=True, eq=False)
-class TransientResult(ByValue):
+@dataclass(frozen=True, eq=False, repr=False)
+class TransientResult(ResponseMethods, ByValue):
     """Histories of outputs.
 
     Attributes

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from antinode.beam.beam import Beam
     from antinode.beam.families import FamilyName
     from antinode.vehicle.case import Case
+    from antinode.vehicle.loads import Loads
     from antinode.vehicle.vehicle import FinSet, Vehicle
 
 ENDINGS = (".png", ".svg", ".pdf")
@@ -84,7 +85,7 @@ def plot_case(case: Case, result: ModalResult, most: int = 6) -> Figure:
     panels = _panels(result, most)
     figure, axes = _stack((0.7, *[1.0] * (1 + len(panels))))
     draw_vehicle(case, axes[0])
-    draw_axial_force(case, axes[1])
+    draw_axial_force(case.loads, axes[1])
     _draw_panels(panels, result, axes[2:])
     return _titled(figure, axes, case_title(case), "x from the nose [m]")
 
@@ -105,14 +106,26 @@ def plot_loads(case: Case, title: bool = True) -> Figure:
     """Draw the vehicle in its cavity and N, Q and M along it."""
     figure, axes = _stack((0.7, 1.0, 1.0, 1.0))
     draw_vehicle(case, axes[0])
-    draw_axial_force(case, axes[1])
-    x, loads = _fine(case), case.loads
-    xx, Q = _both_sides(x, loads.shear_force(x, "left"), loads.shear_force(x, "right"))
-    _filled(axes[2], xx, Q / 1e3, PALETTE[2])
-    axes[2].set(title="Static shear force", ylabel="Q [kN]")
-    _filled(axes[3], x, loads.bending_moment(x) / 1e3, PALETTE[3])
-    axes[3].set(title="Static bending moment", ylabel="M [kN m]")
+    _draw_forces(case.loads, axes[1:])
     return _titled(figure, axes, case_title(case) if title else "", "x from the nose [m]")
+
+
+@styled()
+def plot_forces(loads: Loads) -> Figure:
+    """Draw N, Q and M along the body."""
+    figure, axes = _stack((1.0, 1.0, 1.0))
+    _draw_forces(loads, axes)
+    return _titled(figure, axes, "", "x from the nose [m]")
+
+
+def _draw_forces(loads: Loads, axes: Any) -> None:
+    draw_axial_force(loads, axes[0])
+    x = _fine(loads)
+    xx, Q = _both_sides(x, loads.shear_force(x, "left"), loads.shear_force(x, "right"))
+    _filled(axes[1], xx, Q / 1e3, PALETTE[2])
+    axes[1].set(title="Static shear force", ylabel="Q [kN]")
+    _filled(axes[2], x, loads.bending_moment(x) / 1e3, PALETTE[3])
+    axes[2].set(title="Static bending moment", ylabel="M [kN m]")
 
 
 def _stack(heights: tuple[float, ...]) -> tuple[Figure, Any]:
@@ -207,19 +220,16 @@ def _axial_force_of_beam(beam: Beam, axes: Axes) -> None:
     axes.set(title="Axial force (compression positive)", ylabel="N [kN]")
 
 
-def draw_axial_force(case: Case, axes: Axes) -> None:
+def draw_axial_force(loads: Loads, axes: Axes) -> None:
     """Draw N(x) with its steps at the forces."""
-    x = _fine(case)
-    loads = case.loads
+    x = _fine(loads)
     xx, N = _both_sides(x, loads.axial_force(x, "left"), loads.axial_force(x, "right"))
     _filled(axes, xx, N / 1e3, PALETTE[0])
     axes.set(title="Axial force (compression positive)", ylabel="N [kN]")
 
 
-def _fine(case: Case) -> np.ndarray:
-    return np.unique(
-        np.concatenate([np.linspace(0, case.vehicle.length, 401), case.loads.breakpoints])
-    )
+def _fine(loads: Loads) -> np.ndarray:
+    return np.unique(np.concatenate([np.linspace(0, loads.length, 401), loads.breakpoints]))
 
 
 def _both_sides(

@@ -154,7 +154,7 @@ def _modes_table(result: ModalResult, kept: Sequence[int], brief: bool) -> Table
         if family and mode.family != family:
             table.add_section()
         family = mode.family
-        cells = _cells(mode, brief)
+        cells = mode_cells(mode, brief)
         if result.method == "tmm":
             cells = (*cells[:3], "", "", *cells[5:])
         if 1 not in kept and mode.kind == "divergent":
@@ -163,7 +163,8 @@ def _modes_table(result: ModalResult, kept: Sequence[int], brief: bool) -> Table
     return table
 
 
-def _cells(mode: Mode, brief: bool) -> tuple[str, ...]:
+def mode_cells(mode: Mode, brief: bool) -> tuple[str, ...]:
+    """Return a mode as the cells of a table: name, kind, frequency, error, and two effects."""
     name = mode.name
     if mode.omega2 < 0:
         growth = f"{mode.growth_rate_per_s:.5g} /s"

@@ -38,7 +38,7 @@ _THIN, _THICK = 0.14, 0.5  # half-height of the sketch, by the bending stiffness
 def draw_beam(beam: Beam, axes: Axes) -> None:
     """Draw the beam, thicker where it is stiffer, with its ends and what is attached to it."""
     x = np.repeat(beam.x, 2)[1:-1]
-    half = _thickness(beam)
+    half = thickness(beam)
     axes.fill_between(x, -half, half, color=BODY, edgecolor=EDGE, linewidth=0.7, zorder=2)
     reach = 0.02 * beam.length
     for side, sign, x_end in ((beam.ends.left, -1, beam.x[0]), (beam.ends.right, 1, beam.x[-1])):
@@ -52,7 +52,7 @@ def draw_beam(beam: Beam, axes: Axes) -> None:
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
-def _thickness(beam: Beam) -> np.ndarray:
+def thickness(beam: Beam) -> np.ndarray:
     """Return half the height of the sketch at both ends of every interval."""
     size = np.log(beam.bending_stiffness[:, [0, -1]].ravel())
     low, high = float(size.min()), float(size.max())

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any
 
@@ -35,10 +37,27 @@ BODY, EDGE, WATER = "#C9CED6", "#4B5563", "#DCEBF7"
 """A body, its outline, and the cavity round it."""
 
 
+_SCREEN = ContextVar("on_screen", default=False)
+
+
+@contextmanager
+def on_screen() -> Iterator[None]:
+    """Draw where the caller draws: in a window, in a notebook; without it figures are for files."""
+    token = _SCREEN.set(True)
+    try:
+        yield
+    finally:
+        _SCREEN.reset(token)
+
+
 def pyplot() -> Any:
-    """Return matplotlib.pyplot, drawing to files; raise InputError if it is not installed."""
+    """Return matplotlib.pyplot, drawing to files; raise InputError if it is not installed.
+
+    A notebook, which names a backend of its own, keeps it.
+    """
     matplotlib = import_extra("matplotlib", "plot")
-    matplotlib.use("Agg", force=False)
+    if not _SCREEN.get() and not os.environ.get("MPLBACKEND", "").startswith("module://"):
+        matplotlib.use("Agg", force=False)
     import matplotlib.pyplot as plt
 
     return plt

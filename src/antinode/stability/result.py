@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from antinode.methods import StabilityMethods
 from antinode.modes.result import null
 
 Kind = Literal["flutter", "divergence"]
@@ -95,7 +96,7 @@ class CriticalLoad:
 
 
 @dataclass(frozen=True)
-class Stability:
+class Stability(StabilityMethods):
     """Every change of stability up to and including the first flutter, by rising factor.
 
     Attributes

@@ -20,6 +20,7 @@ from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import naming, read_tables
 from antinode.inputs.units import Frozen
+from antinode.methods import CaseMethods
 
 from .condition import OperatingCondition, Water
 from .loads import Loads, loads_of_case
@@ -52,7 +53,7 @@ NO_TANGENT = (
 """What a vehicle's beam leaves out by default."""
 
 
-class Case(Frozen):
+class Case(CaseMethods, Frozen):
     """A vehicle in a condition, with all choices made."""
 
     vehicle: Vehicle = Field(description="stations, cavitator, fins")

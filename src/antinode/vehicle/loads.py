@@ -19,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 from antinode.arrays import Array, distinct
 from antinode.beam.mass import MassDistribution
 from antinode.errors import InputError
+from antinode.methods import LoadsMethods
 
 from .condition import OperatingCondition, Water
 from .forces import FinLoads, ForceOnBody, drag_ahead, forces_of
@@ -91,8 +92,8 @@ class Checks(NamedTuple):
         return max(map(abs, self))
 
 
-@dataclass(frozen=True, eq=False)
-class Loads(LoadNumbers[float]):
+@dataclass(frozen=True, eq=False, repr=False)
+class Loads(LoadsMethods, LoadNumbers[float]):
     """Everything that acts on the body in one condition: the `LoadNumbers`, and what follows.
 
     Parameters
@@ -133,6 +134,10 @@ class Loads(LoadNumbers[float]):
     axial_model: Literal["exact", "element_midpoint"]
     warnings: tuple[str, ...]
     validity: tuple[Validity, ...]
+
+    def __call__(self) -> Self:
+        """Return the loads themselves: ``case.loads()`` reads like the other methods."""
+        return self
 
     @property
     def length(self) -> float:

@@ -16,6 +16,8 @@ UREG = pint.UnitRegistry()
 FRAME = pd.DataFrame({"x": X, "mass_per_length": M, "bending_stiffness": EI})
 IN_KN = pd.Series([3e3, 2.5e3, 2e3])
 IN_KN.attrs["units"] = "kN m^2"
+IN_MM = FRAME.assign(x=1000 * FRAME.x)
+IN_MM.attrs["units"] = {"x": "mm"}
 
 
 @pytest.mark.parametrize(
@@ -27,6 +29,7 @@ IN_KN.attrs["units"] = "kN m^2"
         {"x": X, "mass_per_length": [[10, 9], [9, 8]], "bending_stiffness": EI},
         dict(FRAME),
         FRAME,
+        IN_MM,
         FRAME.astype({"x": "object"}),
         {**FRAME, "bending_stiffness": IN_KN},
         {**FRAME, "x": xr.DataArray([0.0, 4e3, 1e4], dims="x", attrs={"units": "mm"})},

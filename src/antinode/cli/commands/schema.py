@@ -16,15 +16,6 @@ def schema(of: str = "case", /) -> None:
     of
         case, beam, response, study or identify.
     """
-    from antinode.show.schema import input_schema
+    from antinode.study.schema import schema as of_file
 
-    if of == "study":
-        from antinode.study.design.schema import study_schema
-
-        print_json(study_schema())
-    elif of == "identify":
-        from antinode.study.identify.schema import identification_schema
-
-        print_json(identification_schema())
-    else:
-        print_json(input_schema(of))
+    print_json(of_file(of))

@@ -20,6 +20,7 @@ from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_beside_case, read_cells, read_toml
 from antinode.inputs.units import Frozen, Length, Number, Unit
+from antinode.methods import StudyMethods
 from antinode.text import short
 from antinode.vehicle.case import Case, check_real, load_case
 
@@ -250,7 +251,7 @@ class _Choices(Frozen):
         "shear does: effect_of_shear where the theory solves it, else model_error",
     )
     solve: StudySolve = Field(default=StudySolve(), description="what to solve, and how well")
-    run: Run = Field(default=Run(), description="how the work is divided")
+    run_table: Run = Field(default=Run(), alias="run", description="how the work is divided")
     tracking: Tracking = Field(default=Tracking(), description="following modes by shape")
     figure: StudyFigure = Field(default=StudyFigure(), description="what --plot draws")
 
@@ -263,7 +264,7 @@ class StudyFile(_Choices):
     )
 
 
-class Study(_Choices):
+class Study(StudyMethods, _Choices):
     """A case or a beam file, and what of it varies."""
 
     case: Annotated[Case, AfterValidator(check_real)] | BeamFile = Field(
@@ -314,7 +315,9 @@ def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
     path = Path(path)
     tables, where = read_beside_case(path, assignments, "a study file", of_beams=True)
     file = validate(StudyFile, tables, where)
-    kept: dict[str, Any] = {k: getattr(file, k) for k in _Choices.model_fields}
+    kept: dict[str, Any] = {
+        field.alias or name: getattr(file, name) for name, field in _Choices.model_fields.items()
+    }
     if "outputs" not in file.model_fields_set:
         del kept["outputs"]
     if file.design.table is not None:

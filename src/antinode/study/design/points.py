@@ -51,11 +51,11 @@ class Points:
     @property
     def chunks(self) -> int:
         """Number of chunks."""
-        return -(-self.cases // self.study.run.chunk)
+        return -(-self.cases // self.study.run_table.chunk)
 
     def bounds(self, chunk: int) -> tuple[int, int]:
         """Return the first case of a chunk, and the first of the next one."""
-        size = self.study.run.chunk
+        size = self.study.run_table.chunk
         return chunk * size, min(self.cases, (chunk + 1) * size)
 
     @property

@@ -20,6 +20,7 @@ from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_beside_case, toml_source
 from antinode.inputs.units import Frozen, Number, Unit
+from antinode.methods import ProblemMethods
 from antinode.vehicle.case import Case, check_real, load_case
 from antinode.vehicle.condition import OperatingCondition
 
@@ -256,7 +257,7 @@ class IdentificationFile(_Choices):
     )
 
 
-class IdentificationProblem(_Choices):
+class IdentificationProblem(ProblemMethods, _Choices):
     """A case, observations of it, and what of it may change."""
 
     case: Annotated[Case, AfterValidator(check_real)] = Field(description="where to start")

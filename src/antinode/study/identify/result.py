@@ -11,6 +11,7 @@ import numpy as np
 
 from antinode.beam.families import FamilyName
 from antinode.errors import InputError
+from antinode.methods import IdentificationMethods
 from antinode.vehicle.case import Case
 
 from .estimates import Estimates
@@ -113,8 +114,8 @@ class Estimate:
         }
 
 
-@dataclass(frozen=True)
-class Identification:
+@dataclass(frozen=True, repr=False)
+class Identification(IdentificationMethods):
     """What was identified; immutable.
 
     Attributes

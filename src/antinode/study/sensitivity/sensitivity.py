@@ -21,6 +21,7 @@ from antinode.arrays import Array
 from antinode.beam.families import FamilyName
 from antinode.beam.file import BeamFile
 from antinode.errors import AntinodeError, ComputationError, InputError
+from antinode.methods import SensitivityMethods
 from antinode.modes.hertz import hertz
 from antinode.modes.result import null
 from antinode.study.cases.chunks import mode_names
@@ -81,8 +82,8 @@ class ModeSensitivity:
     without: int
 
 
-@dataclass(frozen=True)
-class SensitivityResult:
+@dataclass(frozen=True, repr=False)
+class SensitivityResult(SensitivityMethods):
     """Sensitivities of all frequencies.
 
     Attributes

@@ -154,7 +154,7 @@ def attributes(points: Points) -> dict[str, Any]:
         "study_hash": study_hash(study),
         "cases": points.cases,
         "shape": list(points.shape),
-        "chunk": study.run.chunk,
+        "chunk": study.run_table.chunk,
         "design": study.design.kind,
         "seed": study.design.seed,
         "modes": study.solve.modes,
@@ -203,7 +203,9 @@ def _now() -> str:
 
 def _settings(study: Study) -> dict[str, Any]:
     """Return the study as plain values, without its case, figure and the values of tables."""
-    kept = study.model_dump(mode="json", exclude={"case", "figure"}, exclude_defaults=True)
+    kept = study.model_dump(
+        mode="json", exclude={"case", "figure"}, exclude_defaults=True, by_alias=True
+    )
     for given in kept.get("inputs", []):
         if len(given.get("values") or []) > 100:
             given["values"] = f"{len(given['values'])} values"
@@ -220,7 +222,7 @@ def study_hash(study: Study) -> str:
 
     Nor does the number of samples of a design that can grow.
     """
-    kept = study.model_dump(mode="json", exclude={"case", "figure", "name"})
+    kept = study.model_dump(mode="json", exclude={"case", "figure", "name"}, by_alias=True)
     if study.design.kind in GROWING:
         kept["design"].pop("number")
     return _hash(kept)

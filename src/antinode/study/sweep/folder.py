@@ -43,7 +43,7 @@ def import_store() -> Any:
 
 def rows_of_blocks(points: Points) -> int:
     """Return how many cases a block of a new store has."""
-    chunk = points.study.run.chunk
+    chunk = points.study.run_table.chunk
     rows = chunk * min(max(points.chunks // _FEW, 1), _MOST)
     return rows if points.grows else min(rows, points.cases)
 
@@ -173,7 +173,7 @@ def _kept(found: Mapping[str, Any], points: Points) -> dict[str, Any]:
 
 def _rows(path: Path, points: Points) -> int:
     """Return how many cases the blocks of a store have."""
-    name, chunk = "reason", points.study.run.chunk
+    name, chunk = "reason", points.study.run_table.chunk
     try:
         rows = known.rows_of((path / name / METADATA).read_bytes())
     except (OSError, ValueError, KeyError, TypeError, IndexError) as error:

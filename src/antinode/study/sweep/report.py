@@ -143,7 +143,7 @@ def _null(value: float) -> float | None:
 
 def failure_text(points: Points, index: int) -> str:
     """Say of one case why it failed, as the case itself would."""
-    chunk = index // points.study.run.chunk
+    chunk = index // points.study.run_table.chunk
     row = index - points.bounds(chunk)[0]
     values = points.values(chunk)[row : row + 1]
     cases = Cases(points.study, points.variables, values)

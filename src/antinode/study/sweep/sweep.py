@@ -136,7 +136,7 @@ def _executor(workers: int, scheduler: str | None) -> Iterator[Run]:
 def _in_memory(points: Points, run: Run, progress: Progress | None) -> xarray.Dataset:
     import xarray
 
-    plan = Plan(points, min(points.study.run.chunk, points.cases))
+    plan = Plan(points, min(points.study.run_table.chunk, points.cases))
     found: dict[int, Arrays] = {}
     told = _Told(progress, plan)
     for done in run(plan, list(range(plan.blocks))):

@@ -73,7 +73,7 @@ class Plan(NamedTuple):
 
     def chunks(self, block: int) -> range:
         """Return the chunks of a block."""
-        each = -(-self.rows // self.points.study.run.chunk)
+        each = -(-self.rows // self.points.study.run_table.chunk)
         return range(block * each, min(self.points.chunks, (block + 1) * each))
 
 
