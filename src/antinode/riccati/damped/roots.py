@@ -35,7 +35,8 @@ _WIDTH = 1e-11  # of a circle around an eigenvalue
 _TRIES = ((1, 16), (1, 64), (1, 256), (10, 64), (1e2, 256), (1e3, 256), (1e4, 256), (1e5, 256))
 """Circles about an eigenvalue: over the first radius, and with how many corners."""
 _DISC = 0.2  # of the distance to the next pole of g: where its tangent is bounded
-_STEP = 1e-6  # of that disc, between places that tell the slope
+_STEP = 1e-4  # of that disc, between places that tell the slope
+_TANGENTS = 1.0, 30.0, 0.1  # of the first radius, in which that is tried
 _APART = 1e-6  # relative distance of eigenvalues that starts alone may tell apart
 _ROUNDS = 6
 
@@ -258,10 +259,9 @@ class Finder:
         s = np.array(known)
         floor = 1e-14 * self.scale
         radius = np.maximum(_WIDTH * np.abs(s), 8 * np.array(steps)) + floor
-        proven: Numbers = self._holds_one(s, radius)
+        proven, outer = self._holds_one(s, radius)
         members = np.ones(len(s), int)
         everyone = np.concatenate([s, s[s.imag > 0].conj()])
-        outer = radius.copy()
         for growth, corners in _TRIES:
             open_ = np.flatnonzero(~proven)
             if not len(open_):
@@ -276,17 +276,25 @@ class Finder:
         found = [ComplexEigenvalue(*row) for row in rows]
         return sorted(found, key=lambda v: (v.s.imag, v.s.real))
 
-    def _holds_one(self, s: Complex, radius: Array) -> Array:
-        """Tell about which places the tangent of g alone decides that one zero is near (Rouche)."""
+    def _holds_one(self, s: Complex, radius: Array) -> tuple[Numbers, Array]:
+        """Tell about which places the tangent of g alone decides that one zero is near (Rouche).
+
+        Returns also the radii for which it does.
+        """
         here = self._ratio.samples(s)
         disc = _DISC * here.reach / (2 * np.abs(s))
         step = _STEP * disc
         there = self._ratio.samples(np.concatenate([s + step, s - step])).value
+        proven, used = np.zeros(len(s), bool), radius.copy()
         with np.errstate(all="ignore"):
             slope = np.abs(there[: len(s)] - there[len(s) :]) / (2 * step)
-            slope = slope - here.remainder(step, disc) / step
-            off = np.abs(here.value) + here.remainder(radius, disc)
-        return np.asarray((off < 0.5 * slope * radius) & (radius < disc))
+            slope = slope - here.spread(disc) / disc * _STEP**2 / (1 - _STEP**2)
+            for growth in _TANGENTS:
+                trial = growth * radius
+                off = np.abs(here.value) + here.remainder(trial, disc)
+                good = ~proven & (off < 0.5 * slope * trial) & (trial < disc)
+                proven[good], used[good] = True, trial[good]
+        return proven, used
 
     def _counted(self, centre: Complex, radius: Array, corners: int) -> tuple[Array, Array]:
         """Return the zeros of D in polygons about some places, and whether that is proven."""
