@@ -1,8 +1,8 @@
 """Random damped beams, and what else tells their eigenvalues s.
 
-p-version finite elements of Timoshenko's energy in Y and psi, with dashpots, feedback and end forces
-that turn as matrices, go through a dense solver of the linearised quadratic problem (LAPACK). Each
-of its eigenvalues within the region starts a search for the zero of the determinant of what both
+p-version finite elements of Timoshenko's energy in Y and psi, with dashpots, feedback and end
+forces that turn as matrices, go through a dense solver of the linearised problem (LAPACK). Each of
+its eigenvalues within the region starts a search for the zero of the determinant of what both
 ends want, of exponentials in 40 digits. Nothing is shared with the solver but the beam.
 """
 
@@ -54,7 +54,7 @@ def random_beam(rng):
     return beam.with_attachments(*items)
 
 
-# --- what a beam is, read from its tables alone -----------------------------------------------------
+# --- what a beam is, read from its tables alone ------------------
 
 
 def segments(beam):
@@ -91,7 +91,7 @@ def matrices(beam, k):
 HELD = {"free": (), "clamped": (0, 1), "pinned": (0,), "sliding": (1,)}
 
 
-# --- finite elements --------------------------------------------------------------------------------
+# --- finite elements ------------------
 
 
 def _basis():
@@ -141,14 +141,14 @@ def elements(beam):
     return eigvals(state)
 
 
-# --- many digits ------------------------------------------------------------------------------------
+# --- many digits ------------------
 
 
 def determinant(beam, s):
     """Of what the right end wants, of the states that the left end admits, in mpmath."""
     held = HELD[beam.ends.left]
     z = mpmath.zeros(4, 2)
-    free = [i if i in (0, 1) else i for i in range(4) if i not in _zeros(held)]
+    free = [i for i in range(4) if i not in _zeros(held)]
     for column, i in enumerate(free):
         z[i, column] = 1
     for k, (h, m, EI, N, shear, rotary) in enumerate(segments(beam)):
@@ -166,7 +166,10 @@ def _zeros(held):
 
 def _loaded(beam, k, s):
     M, C, K = matrices(beam, k)
-    A = [[s * s * float(M[i, j]) + s * float(C[i, j]) + float(K[i, j]) for j in (0, 1)] for i in (0, 1)]
+    A = [
+        [s * s * float(M[i, j]) + s * float(C[i, j]) + float(K[i, j]) for j in (0, 1)]
+        for i in (0, 1)
+    ]
     T = mpmath.eye(4)
     T[3, 0], T[3, 1] = -A[0][0], -A[0][1]
     T[2, 0], T[2, 1] = A[1][0], A[1][1]
@@ -221,7 +224,7 @@ def reference(beam, radius, zeros):
 
 
 def compared(beam, modes=5):
-    """Missing, spurious, largest error over the stated one, largest relative one, whether proven."""
+    """Missing, spurious, largest error over the stated one, relative error, whether proven."""
     result = an.solve_modes(beam, modes, families=["bending"], backend="numpy", damping="complex")
     record, region = result.certificate["record"], result.certificate["region"]
     every = [m for m in result.modes if m.kind != "rigid"]
@@ -229,9 +232,9 @@ def compared(beam, modes=5):
     error = np.array([m.error_per_s for m in every])
     exact = reference(beam, region["abs_s_below"], record["at_zero"])
     shown = max((s.imag for s in mine), default=0.0)
-    wanted = exact[exact.imag <= shown * (1 + 1e-9)]  # the list ends with the last one asked for
+    wanted = exact.imag <= shown * (1 + 1e-9)  # the list ends with the last one asked for
     gap = np.abs(mine[:, None] - exact[None, :])
-    missing = int(np.sum(np.min(gap, axis=0)[exact.imag <= shown * (1 + 1e-9)] > 1e-6 * np.abs(wanted)))
+    missing = int(np.sum(np.min(gap, axis=0)[wanted] > 1e-6 * np.abs(exact[wanted])))
     off = np.min(gap, axis=1)
     spurious = int(np.sum(off > 1e-6 * np.abs(mine)))
     total = 2 * int(np.sum(exact.imag > 0)) + int(np.sum(exact.imag == 0)) + record["at_zero"]

@@ -273,6 +273,13 @@ def feeds_back(items: Iterable[Attachment], family: FamilyName) -> bool:
     return FAMILIES[family].rotary and any(isinstance(item, PointFeedback) for item in items)
 
 
+def gives_energy(item: PointFeedback) -> bool:
+    """Tell whether the damping of a feedback gives energy to some motion."""
+    C = item.damping + item.damping.T
+    scale = np.sqrt(np.maximum(np.abs(np.diag(C)), 1e-300))
+    return bool(np.linalg.eigvalsh(C / np.outer(scale, scale))[0] < -1e-12)
+
+
 def refuse_feedback(items: Iterable[Attachment], family: FamilyName, what: str) -> None:
     """Raise InputError if a feedback acts in a family, for something that counts on energies."""
     if feeds_back(items, family):

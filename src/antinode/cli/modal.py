@@ -36,6 +36,7 @@ def solve(problem: Case | BeamFile, solver: Solver) -> ModalResult:
         method=solver.method,
         normalisation=solver.shapes,
         unloaded=True,
+        damping=solver.damping,
     )
 
 

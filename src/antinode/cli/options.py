@@ -94,6 +94,14 @@ class Solver:
         Literal["riccati", "tmm"],
         option(SOLVER, "riccati, certified; or tmm, the transfer matrix scan, for comparison."),
     ] = "riccati"
+    damping: Annotated[
+        Literal["auto", "none", "complex"],
+        option(
+            SOLVER,
+            "Complex modes with damping ratio and growth: auto, where dashpots or point feedback "
+            "act; complex, always, with loss factors too; none, as if there were no dashpots.",
+        ),
+    ] = "auto"
     shapes: Annotated[
         Literal["amplitude", "mass"],
         option(SOLVER, "Scale shapes to largest displacement 1, or unit modal mass."),

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from antinode.beam.attachments import PointFeedback
+from antinode.beam.attachments import PointFeedback, gives_energy
 from antinode.beam.beam import Beam
 from antinode.beam.plausible import doubts, pushed_at
 
@@ -40,6 +40,10 @@ FLUTTERS = (
 FLUTTERS_DAMPED = (
     "flutter: the motion grows while it oscillates, by forces that answer it, such as end forces "
     "that follow or feedback; reduce them or stiffen the beam"
+)
+GIVES_ENERGY = (
+    "its damping gives energy in some motion (the symmetric part of its matrix has a negative "
+    "eigenvalue): that is allowed, and may make modes grow"
 )
 PUSHED_ON = (
     "the motion grows without oscillating: forces that answer it push it on by more than the "
@@ -114,6 +118,11 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
     if flutter:
         complex_ = any(m.eigenvalue is not None for m in flutter)
         warnings.append(f"{_growing(flutter)}: {FLUTTERS_DAMPED if complex_ else FLUTTERS}")
+    warnings += [
+        f"the point feedback at x = {item.x:g} m: {GIVES_ENERGY}"
+        for item in beam.attachments
+        if isinstance(item, PointFeedback) and gives_energy(item)
+    ]
     if any(m.kind == "divergent" and not m.number for m in modes):
         warnings.append(rotation_warning(beam))
     neutral = [m.name for m in modes if 0 <= m.omega2 < m.error_omega2]

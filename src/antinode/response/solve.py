@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from antinode.beam.attachments import PointFeedback
 from antinode.beam.beam import Beam
 from antinode.errors import ComputationError
 from antinode.modes.solve import HasBeam, beam_of
@@ -113,10 +114,14 @@ def beam_response(
 
 
 def unstable(beam: Beam, drives: tuple[Drive, ...]) -> list[Mode]:
-    """Return the modes of the driven families that grow by themselves; dampers do not count."""
+    """Return the modes of the driven families that grow by themselves, with dashpots and feedback.
+
+    Loss factors do not count.
+    """
     from antinode.modes.solve import solve_one
 
-    if not np.any(beam.axial_force) and not beam.axial_acceleration:
+    feedback = any(isinstance(item, PointFeedback) for item in beam.attachments)
+    if not np.any(beam.axial_force) and not beam.axial_acceleration and not feedback:
         return []
     return [
         mode

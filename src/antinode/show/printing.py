@@ -21,6 +21,8 @@ from antinode.beam.families import BENDING
 from antinode.modes.result import ModalResult, Mode, not_modelled
 from antinode.text import counted, one_line
 
+from . import complex_table
+
 if TYPE_CHECKING:
     from antinode.beam.beam import Beam
     from antinode.modes.buckling import Buckling
@@ -114,6 +116,10 @@ _KEPT = ((0, 1, 2, 3, 4, 5), (0, 2, 3, 4, 5), (0, 2, 3, 5), (0, 2, 5))
 
 def modes_table(result: ModalResult, out: Console) -> Table:
     """Return the table of modes that fits the console: in short words, or with fewer columns."""
+    if result.is_complex:
+        words = (complex_table.HEADINGS, complex_table.BRIEF)
+        tables = (complex_table.fill(new_table(*w, left=(0, 1)), result.modes) for w in words)
+        return fitting(tables, out)
     choices = ((_KEPT[0], False), *((kept, True) for kept in _KEPT))
     return fitting((_modes_table(result, *choice) for choice in choices), out)
 

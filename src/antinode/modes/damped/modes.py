@@ -16,12 +16,12 @@ from antinode.beam.families import FAMILIES, FamilyName
 from antinode.modes.backends import Backend
 from antinode.modes.result import Kind, Mode, Normalisation, Solution
 from antinode.modes.rigid import centre_of_mass, rigid_rotation, rotary_inertia
-from antinode.modes.shapes import normalising_factors, on_grid
+from antinode.modes.shapes import model_error_parts, normalising_factors, on_grid
 from antinode.riccati.chain import Chain
 from antinode.riccati.damped.chain import Damped
 from antinode.riccati.damped.energies import Products, products
 from antinode.riccati.damped.shapes import complex_states
-from antinode.riccati.shapes import split_for
+from antinode.riccati.shapes import Energies, split_for
 
 from .family import DampedFamily, solve_damped
 from .rest import AtRest, of_motions, rate_matrix
@@ -142,7 +142,9 @@ class _Shapes:
         chain = split_for(chain, np.append(np.abs(self.s) ** 2, 0.0))
         damped, self.chain = _on(solved.damped, chain)
         self.rigid = _rigid_names(solved.rest, chain)
-        states, left, self.residual, mass = _right_and_left(damped, self.chain, self.s)
+        states, left, self.residual, forms = _right_and_left(damped, self.chain, self.s)
+        mass = np.zeros(0) if forms is None else forms.size
+        self.effect = _effect_of_shear(beam, self.chain, self.s, forms)
         rigid = _rigid_states(solved.rest, chain)
         self.omega2: Numbers = np.concatenate([np.zeros(rigid.shape[1]), -self.s * self.s])
         resting: Numbers = rigid.astype(complex)
@@ -175,11 +177,11 @@ def _on(damped: Damped, chain: Chain) -> tuple[Damped, Chain]:
 
 def _right_and_left(
     damped: Damped, chain: Chain, s: Complex
-) -> tuple[Complex, Complex, Array, Array]:
-    """Return right and left states, with ``w^T (2 s M + C) v = 1``, residuals and modal masses."""
+) -> tuple[Complex, Complex, Array, Products | None]:
+    """Return right and left states, with ``w^T (2 s M + C) v = 1``, residuals and forms."""
     shape = (len(chain.length) + 1, len(s), chain.law.size)
     if not len(s):
-        return np.zeros(shape, complex), np.zeros(shape, complex), np.zeros(0), np.zeros(0)
+        return np.zeros(shape, complex), np.zeros(shape, complex), np.zeros(0), None
     right, left = complex_states(damped, s), complex_states(damped.transposed, s)
     forms: Products = products(damped, chain, s, right, left)
     along = 2 * s * forms.mass + forms.damping
@@ -187,7 +189,24 @@ def _right_and_left(
         off = s * s * forms.mass + s * forms.damping + forms.stiffness
         residual = np.abs(off / along / s)
         left = left / along[:, None]
-    return right, left, residual, forms.size
+    return right, left, residual, forms
+
+
+def _effect_of_shear(beam: Beam, chain: Chain, s: Complex, forms: Products | None) -> Array:
+    """Return the first-order effect of shear and rotary inertia on each frequency; NaN if unknown.
+
+    They change s by ``-w^T (s^2 dM + dK) v``, of which the imaginary part counts.
+    """
+    known = FAMILIES[chain.law.name].rotary and beam.axial_stiffness is not None
+    if forms is None or not known or beam.has_shear:
+        return np.full(len(s), np.nan)
+    with np.errstate(all="ignore"):
+        mass: Numbers = forms.mass + forms.damping / (2 * s)
+        energies = Energies(forms.squares, mass, forms.stiffness, np.abs(mass))
+        parts = model_error_parts(beam, chain, energies)
+        rotary = 0.0 if beam.is_timoshenko else parts.rotary.sum(axis=0)
+        moved = -(rotary - parts.shear.sum(axis=0) / (s * s)) / 2 * s
+        return np.where(s.imag > 0, moved.imag / s.imag, np.nan)
 
 
 def _rigid_names(rest: AtRest, chain: Chain) -> list[str]:
@@ -243,6 +262,7 @@ def _mode(
     s, error = solved.eigenvalues[k].s, float(solved.error[k])
     omega2 = -(s.real**2) if s.imag == 0 and s.real > 0 else s.imag**2
     low, high = _bracket(s, error)
+    effect = float(shapes.effect[row - len(shapes.rigid)])
     return Mode(
         family=family,
         number=named[1],
@@ -254,7 +274,7 @@ def _mode(
         error_omega2=max(high - omega2, omega2 - low),
         modal_mass=float(shapes.mass[row]),
         residual=float(shapes.residual[row]),
-        model_error=None,
+        model_error=None if math.isnan(effect) else effect,
         states=shapes.at_grid[:, row].real,
         growth=0.0 if omega2 < 0 else s.real,
         eigenvalue=s,

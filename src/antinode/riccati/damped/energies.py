@@ -30,6 +30,8 @@ class Products(NamedTuple):
     """w^T C v"""
     size: Array
     """v^H M v: the integral of m abs(Y)^2, the modal mass."""
+    squares: Squares
+    """Of w v, over each segment."""
 
 
 def products(damped: Damped, chain: Chain, s: Numbers, right: Numbers, left: Numbers) -> Products:
@@ -69,7 +71,7 @@ def products(damped: Damped, chain: Chain, s: Numbers, right: Numbers, left: Num
         )
         damping = np.einsum("ik,ij,jk->k", w, acting.C, v)
         stiffness = stiffness + np.einsum("ik,ij,jk->k", w, acting.K, v)
-    return Products(mass, stiffness, damping, size.real)
+    return Products(mass, stiffness, damping, size.real, Squares(*total[0]))
 
 
 def _of_point(
