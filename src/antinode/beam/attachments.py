@@ -202,6 +202,12 @@ class PointFeedback:
         rows = (self.translational_damping, self.force_of_turn_rate)
         return np.array([rows, (self.moment_of_velocity, self.rotational_damping)])
 
+    @property
+    def gives_energy(self) -> bool:
+        """Whether its damping gives energy to some motion."""
+        (a, b), (c, d) = self.damping.tolist()
+        return a < 0 or d < 0 or 4 * a * d < (b + c) ** 2
+
 
 Attachment = PointMass | Spring | Joint | Dashpot | PointFeedback
 
@@ -271,13 +277,6 @@ def is_damped(items: Iterable[Attachment], family: FamilyName) -> bool:
 def feeds_back(items: Iterable[Attachment], family: FamilyName) -> bool:
     """Tell whether a feedback acts in a family: there are no undamped modes then."""
     return FAMILIES[family].rotary and any(isinstance(item, PointFeedback) for item in items)
-
-
-def gives_energy(item: PointFeedback) -> bool:
-    """Tell whether the damping of a feedback gives energy to some motion."""
-    C = item.damping + item.damping.T
-    scale = np.sqrt(np.maximum(np.abs(np.diag(C)), 1e-300))
-    return bool(np.linalg.eigvalsh(C / np.outer(scale, scale))[0] < -1e-12)
 
 
 def refuse_feedback(items: Iterable[Attachment], family: FamilyName, what: str) -> None:

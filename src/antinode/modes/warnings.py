@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from antinode.beam.attachments import PointFeedback, gives_energy
+from antinode.beam.attachments import PointFeedback
 from antinode.beam.beam import Beam
 from antinode.beam.plausible import doubts, pushed_at
 
@@ -121,7 +121,7 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
     warnings += [
         f"the point feedback at x = {item.x:g} m: {GIVES_ENERGY}"
         for item in beam.attachments
-        if isinstance(item, PointFeedback) and gives_energy(item)
+        if isinstance(item, PointFeedback) and item.gives_energy
     ]
     if any(m.kind == "divergent" and not m.number for m in modes):
         warnings.append(rotation_warning(beam))

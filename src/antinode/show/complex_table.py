@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from rich.text import Text
@@ -24,20 +24,18 @@ HEADINGS = (
 BRIEF = "mode", "kind", "f [Hz]", "damping", "growth [1/s]", "+- [1/s]"
 
 
-def fill(table: Table, modes: Sequence[Mode]) -> Table:
+def fill(table: Table, modes: Sequence[Mode], frequency_text: Callable[[Mode], str]) -> Table:
     """Add a row for each mode, families apart."""
     family = ""
     for mode in modes:
         if family and mode.family != family:
             table.add_section()
         family = mode.family
-        table.add_row(*(Text(cell) for cell in _cells(mode)))
+        table.add_row(*(Text(cell) for cell in _cells(mode, frequency_text)))
     return table
 
 
-def _cells(mode: Mode) -> tuple[str, ...]:
-    from .printing import frequency_text
-
+def _cells(mode: Mode, frequency_text: Callable[[Mode], str]) -> tuple[str, ...]:
     s = mode.eigenvalue_per_s
     ratio = mode.damping_ratio
     exact = s == 0 or mode.error_per_s is None

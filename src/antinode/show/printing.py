@@ -118,7 +118,8 @@ def modes_table(result: ModalResult, out: Console) -> Table:
     """Return the table of modes that fits the console: in short words, or with fewer columns."""
     if result.is_complex:
         words = (complex_table.HEADINGS, complex_table.BRIEF)
-        tables = (complex_table.fill(new_table(*w, left=(0, 1)), result.modes) for w in words)
+        empty = (new_table(*w, left=(0, 1)) for w in words)
+        tables = (complex_table.fill(t, result.modes, frequency_text) for t in empty)
         return fitting(tables, out)
     choices = ((_KEPT[0], False), *((kept, True) for kept in _KEPT))
     return fitting((_modes_table(result, *choice) for choice in choices), out)
