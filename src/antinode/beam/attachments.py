@@ -144,18 +144,14 @@ class PointFeedback:
     ----------
     x : float
         Station [m].
-    translational : float
-        [N/m].
+    translational, translational_damping : float
+        [N/m], [N s/m].
     force_of_turn, moment_of_displacement : float
         [N] (per rad), [N m/m].
-    rotational : float
-        [N m/rad].
-    translational_damping : float
-        [N s/m].
     force_of_turn_rate, moment_of_velocity : float
         [N s] (per rad), [N m s/m].
-    rotational_damping : float
-        [N m s/rad].
+    rotational, rotational_damping : float
+        [N m/rad], [N m s/rad].
     """
 
     x: float
@@ -206,7 +202,7 @@ class PointFeedback:
     def gives_energy(self) -> bool:
         """Whether its damping gives energy to some motion."""
         (a, b), (c, d) = self.damping.tolist()
-        return a < 0 or d < 0 or 4 * a * d < (b + c) ** 2
+        return bool(a < 0 or d < 0 or 4 * a * d < (b + c) ** 2)
 
 
 Attachment = PointMass | Spring | Joint | Dashpot | PointFeedback
@@ -268,9 +264,8 @@ def check_kinds(items: Iterable[object]) -> None:
 
 def is_damped(items: Iterable[Attachment], family: FamilyName) -> bool:
     """Tell whether a dashpot or a feedback acts in a family: its modes are complex then."""
-    entry = FAMILIES[family]
     dashpots = [item for item in items if isinstance(item, Dashpot)]
-    damped = any(getattr(item, name) for item in dashpots for name in entry.springs)
+    damped = any(getattr(item, name) for item in dashpots for name in FAMILIES[family].springs)
     return damped or feeds_back(items, family)
 
 
