@@ -84,8 +84,12 @@ def show_modes(
     if result.method == "tmm":
         out.print(f"[dim]{_BY_TMM}[/dim]", highlight=False)
     show_warnings(out, [*warnings, *result.warnings])
-    missing = "; ".join(not_modelled(result.beam, result.is_complex))
-    out.print(f"[dim]Not in the model: {missing}.[/dim]", highlight=False)
+    show_left_out(out, not_modelled(result.beam, result.is_complex))
+
+
+def show_left_out(out: Console, missing: Sequence[str]) -> None:
+    """Print what the model leaves out."""
+    out.print(f"[dim]Not in the model: {escape('; '.join(missing))}.[/dim]", highlight=False)
 
 
 def _theory_text(beam: Beam) -> str:

@@ -12,7 +12,7 @@ from rich.text import Text
 from antinode.modes.result import not_modelled
 from antinode.text import counted
 
-from .printing import new_table, show_warnings
+from .printing import new_table, show_left_out, show_warnings
 
 if TYPE_CHECKING:
     from antinode.beam.beam import Beam
@@ -38,8 +38,7 @@ def show_stability(out: Console, result: Stability, beam: Beam) -> None:
         out.print("stable, whatever the factor" if result.range[1] == float("inf") else "stable")
     out.print(f"[dim]{_between(result)}[/dim]", highlight=False)
     show_warnings(out, result.warnings)
-    missing = "; ".join(not_modelled(beam))
-    out.print(f"[dim]Not in the model: {missing}.[/dim]", highlight=False)
+    show_left_out(out, not_modelled(beam))
 
 
 def _cells(each: CriticalLoad) -> tuple[str, ...]:

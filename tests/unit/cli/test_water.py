@@ -27,6 +27,12 @@ def test_what_each_device_does_stands_beside_the_modes(folder):
     assert " damping" not in left_out
 
 
+def test_what_is_left_out_names_the_key_that_takes_it_in(folder):
+    for command in ("modes", "stability"):
+        out = " ".join(run(command, folder / "case.toml").out.split())
+        assert '[model] hydrodynamic_stiffness = "tangent"' in out
+
+
 def test_as_json(folder):
     data = json.loads(run("modes", folder / "case.toml", *TANGENT, *FIXED, *FEW, "--json").out)
     water = data["water"]
