@@ -18,6 +18,7 @@ from antinode.arrays import Array
 
 from .forces import FinLoads, Hydrodynamics
 from .hydrodynamics import cavitator, cavity, fins, planing
+from .hydrodynamics.cavity import Cavity
 from .hydrodynamics.validity import Range, Validity
 from .numbers import ManyCases
 
@@ -51,7 +52,7 @@ class LoadWarning:
     quantity : str
         What is compared, with its unit.
     value : array (cases,)
-        Its values.
+        Its values; a bound, which is inside, where the true one is not worked out.
     low, high : float or array (cases,)
         What is allowed.
     concerns : array of bool (cases,)
@@ -173,19 +174,12 @@ def _dry_fins(cases: ManyCases, fin: FinLoads, number: int) -> LoadWarning:
 
 def _forebody(cases: ManyCases, found: Hydrodynamics) -> LoadWarning:
     """Warn of a nose outside the cavity, but for the rim of the disk (its radius in length)."""
-    hole, body = found.cavity, cases.vehicle.radius_profile
+    hole = found.cavity
     start, end = hole.D_n / 2, np.minimum(hole.L_c / 2, cases.vehicle.length)
-    even = start + (end - start) * np.linspace(0, 1, _PLACES)[:, None]
-    bounds = np.clip(np.repeat(body.x, 2)[1:-1, None], start, end)
-    at_bounds = np.where(
-        bounds == np.repeat(body.x, 2)[1:-1, None], body.ends.reshape(-1, 1), body.at(bounds)
-    )
-    x = np.concatenate([even, bounds])
-    R = np.concatenate([body.at(even), at_bounds])
-    out = np.abs(hole.axis_offset(x)) + R - hole.radius(x)
-    worst = np.argmax(out, axis=0)
-    column = np.arange(cases.cases)
-    most, where = out[worst, column], x[worst, column]
+    most, where = _clearance(cases, hole, start, end), start.copy()
+    near = np.flatnonzero(~(most < 0) & (start < end))
+    if len(near):
+        most[near], where[near] = _height_out(cases, hole.take(near), start[near], end[near])
     rest = "where no force is counted: make the nose slimmer, or the cavity larger."
     return LoadWarning(
         f"The forebody stands out of the cavity, {rest}",
@@ -198,3 +192,28 @@ def _forebody(cases: ManyCases, found: Hydrodynamics) -> LoadWarning:
             f"The forebody stands {most[k]:.3g} m out of the cavity at x = {where[k]:.4g} m, {rest}"
         ),
     )
+
+
+def _clearance(cases: ManyCases, hole: Cavity, start: Array, end: Array) -> Array:
+    """Return a bound on how far the body stands out of the cavity between places [m]."""
+    body = cases.vehicle.radius_profile
+    low, high = (np.clip(x[:, None], start, end) for x in (body.x[:-1], body.x[1:]))
+    slope = (np.diff(body.ends, axis=1)[:, 0] / np.diff(body.x))[:, None]
+    R = [body.ends[:, :1] + slope * (x - body.x[:-1, None]) for x in (low, high)]
+    bound = np.where(low < high, hole.protrusion_bound(low, high, *R), -np.inf)
+    return np.asarray(np.max(bound, axis=0))
+
+
+def _height_out(cases: ManyCases, hole: Cavity, start: Array, end: Array) -> tuple[Array, Array]:
+    """Return how far the body stands out of the cavity at most between places, and where [m]."""
+    body = cases.vehicle.radius_profile
+    even = start + (end - start) * np.linspace(0, 1, _PLACES)[:, None]
+    bounds = np.clip(np.repeat(body.x, 2)[1:-1, None], start, end)
+    at_bounds = np.where(
+        bounds == np.repeat(body.x, 2)[1:-1, None], body.ends.reshape(-1, 1), body.at(bounds)
+    )
+    x = np.concatenate([even, bounds])
+    R = np.concatenate([body.at(even), at_bounds])
+    out = np.abs(hole.axis_offset(x)) + R - hole.radius(x)
+    worst, column = np.argmax(out, axis=0), np.arange(len(start))
+    return out[worst, column], x[worst, column]

@@ -363,6 +363,33 @@ class TestWettedSurface:
         assert np.abs(np.diff(area, 3)).max() < 1e-3 * np.abs(np.diff(area)).max()
 
 
+class TestBoundOfProtrusion:
+    """What lets pieces of a body be left out unseen must never be below what stands out."""
+
+    @pytest.mark.parametrize("rise", ["paper", "buoyancy", "none"])
+    def test_it_is_above_every_place_between(self, rise):
+        rng = np.random.default_rng(7)
+        for _ in range(300):
+            hole = form_cavity(
+                0.08,
+                rng.uniform(0.01, 0.6),
+                speed=rng.uniform(15, 120),
+                gravity=9.81,
+                body_length=6.0,
+                body_angle=rng.uniform(-0.1, 0.1),
+                cavitator_angle=rng.uniform(-0.5, 0.5),
+                model=Model(gravity_rise=rise),
+            )
+            a, b = np.sort(rng.uniform(0, 1.1 * hole.L_c, 2))
+            R = rng.uniform(0.01, 0.3, 2)
+            x = np.linspace(a, b, 400)
+            out = np.abs(hole.axis_offset(x)) + np.interp(x, [a, b], R) - hole.radius(x)
+            bound = float(hole.protrusion_bound(a, b, *R))
+            assert bound >= out.max() - 1e-14
+            if rise != "buoyancy" and b < hole.L_c:
+                assert bound <= out.max() + (b - a) * abs(hole.axis_slope(b) - hole.axis_slope(a))
+
+
 class TestRoots:
     """Of functions as they occur here, and of awkward ones."""
 
@@ -370,17 +397,17 @@ class TestRoots:
         a = np.random.default_rng(3).uniform(0.01, 0.9, 500)
         low, high = np.zeros(500), np.ones(500)
         for function, root in (
-            (lambda x: x - a, a),
-            (lambda x: a - x**3, np.cbrt(a)),
-            (lambda x: np.tanh(200 * (x - a)), a),
-            (lambda x: np.sign(x - a) * np.sqrt(np.abs(x - a)), a),
-            (lambda x: np.where(x > a, 1.0, -1e-9), a),
+            (lambda x, k: x - a[k], a),
+            (lambda x, k: a[k] - x**3, np.cbrt(a)),
+            (lambda x, k: np.tanh(200 * (x - a[k])), a),
+            (lambda x, k: np.sign(x - a[k]) * np.sqrt(np.abs(x - a[k])), a),
+            (lambda x, k: np.where(x > a[k], 1.0, -1e-9), a),
         ):
             np.testing.assert_allclose(find_roots(function, low, high), root, rtol=4e-15)
 
     def test_ends_that_are_roots_and_none_at_all(self):
-        assert find_roots(lambda x: 1 - x, np.zeros(1), np.ones(1)) == [1]
-        assert len(find_roots(lambda x: x, np.zeros(0), np.zeros(0))) == 0
+        assert find_roots(lambda x, _: 1 - x, np.zeros(1), np.ones(1)) == [1]
+        assert len(find_roots(lambda x, _: x, np.zeros(0), np.zeros(0))) == 0
 
 
 class TestPlaningState:

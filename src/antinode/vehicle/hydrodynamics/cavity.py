@@ -222,6 +222,29 @@ class Cavity:
         h_sigma_slope = (self.distortion(self.L_c) - self.distortion(0.0)) / self.L_c
         return self.theta + self._rise_slope(x) - h_sigma_slope
 
+    def protrusion_bound(self, start: Any, end: Any, R_start: Any, R_end: Any) -> Any:
+        """Return what ``abs(offset) + R - R_c`` is at most between places [m]; infinite: unknown.
+
+        R is straight there, R_c concave, the axis convex: ``offset + R - R_c`` is largest at an
+        end, ``-offset + R - R_c`` above its ends by no more than the axis lies below its chord, a
+        quarter of the length times the growth of its slope.
+
+        Parameters
+        ----------
+        start, end : float or array
+            The places [m].
+        R_start, R_end : float or array
+            Radius of the body there [m].
+        """
+        below = (end - start) * (self.axis_slope(end) - self.axis_slope(start)) / 4
+        ends = (
+            np.abs(self.axis_offset(x)) + R - self.radius(x)
+            for x, R in ((start, R_start), (end, R_end))
+        )
+        is_convex = (self.D_c >= self.D_n) & (self._rise_scale >= 0)
+        is_convex = is_convex & (2 * end / self.L_c <= self._last_station)
+        return np.where(is_convex, np.maximum(*ends) + below, np.inf)
+
     def gravity_rise(self, x: ArrayLike) -> Any:
         """Return the rise h_g at `x` of the chosen formula [m]."""
         x_bar = self._rise_station(x)

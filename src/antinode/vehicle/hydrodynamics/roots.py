@@ -13,37 +13,46 @@ from collections.abc import Callable
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers
 
 _MOST_STEPS = 100
+_SHARE = 4  # those that are found are set aside once they are one in so many
 _PRECISION = 2 * np.finfo(float).eps
 
 
-def find_roots(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
+def find_roots(function: Callable[[Array, Integers], Array], low: Array, high: Array) -> Array:
     """Return where a function becomes positive, or stops being so, between two places each.
 
     Parameters
     ----------
     function : callable
-        Values at one place for each root, shape (roots,).
+        Values at one place for each of some roots, which the second argument names.
     low, high : array, shape (roots,)
         Places of which one has a positive value.
     """
-    a, b, t = high, low, np.full(len(low), 0.5)
-    f_a, f_b = function(a), function(b)
+    rows = np.arange(len(low))
+    a, b, t, root = high, low, np.full(len(low), 0.5), high.copy()
+    f_a, f_b = function(a, rows), function(b, rows)
     for _ in range(_MOST_STEPS if len(low) else 0):
         precision = _PRECISION * np.maximum(np.abs(a), np.abs(b))
         found = np.abs(b - a) <= precision
-        if np.all(found):
-            break
+        if np.count_nonzero(found) * _SHARE >= len(found):
+            root[rows] = np.where(np.abs(f_a) <= np.abs(f_b), a, b)
+            left = ~found
+            rows, precision = rows[left], precision[left]
+            a, b, t, f_a, f_b = (v[left] for v in (a, b, t, f_a, f_b))
+            if not len(rows):
+                return root
+            found = found[left]
         x = np.where(found, a, a + t * (b - a))
-        f_x = np.where(found, f_a, function(x))
+        f_x = np.where(found, f_a, function(x, rows))
         same = (f_x > 0) == (f_a > 0)
         c, f_c = np.where(same, a, b), np.where(same, f_a, f_b)
         b, f_b = np.where(same, b, a), np.where(same, f_b, f_a)
         a, f_a = x, f_x
         t = _next_fraction(a, b, c, f_a, f_b, f_c, precision)
-    return np.where(np.abs(f_a) <= np.abs(f_b), a, b)
+    root[rows] = np.where(np.abs(f_a) <= np.abs(f_b), a, b)
+    return root
 
 
 def _next_fraction(

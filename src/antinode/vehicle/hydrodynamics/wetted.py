@@ -6,8 +6,10 @@ and 1. Aft of the cavity's middle A_w is the integral of R times the angle, x_P 
 the length on which the angle is not zero; across the chord if the model says so.
 
 Many bodies are laid out as one list of pieces, cut at their stations, at the closure, and where
-wetting begins (``abs(offset) + R = R_c``) or goes all round (``abs(R - abs(offset)) = R_c``). Each
-piece takes 16 Gauss points that crowd at its ends, where the angle starts like a square root.
+wetting begins (``abs(offset) + R = R_c``) or goes all round (``abs(R - abs(offset)) = R_c``). Those
+that a bound shows to be inside the cavity are left out before that; those behind the closure are
+wet all round. Each other piece takes 16 Gauss points that crowd at its ends, where the angle starts
+like a square root.
 
 Source: "Analysis of the Natural Vibration Characteristics of a Supercavitating Underwater Vehicle
 Considering Hydrodynamic Conditions", eq. 16, with the area as docs/theory/hydrodynamics.md has it.
@@ -21,6 +23,7 @@ from functools import cached_property, reduce
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from antinode.arrays import Array, Integers
 from antinode.beam.profile import Profile
@@ -29,6 +32,7 @@ from .cavity import Cavity
 from .roots import find_roots
 
 _SAMPLES, _FEWEST = 256, 8  # places along the body, and on every piece, between which contacts lie
+_ROUNDING = 1e-12  # of the radius
 _BLOCK = 2**15  # numbers that are worked on at a time
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _S = (_NODES + 1) / 2
@@ -162,18 +166,30 @@ def wetted_surface(cavities: Cavity, body: Profile) -> WettedSurface:
         Radius of the body, the same for all cases [m]; linear on every interval.
     """
     cases, tail = len(cavities.L_c), float(body.x[-1])
-    pieces = _split_at_contacts(_pieces(cavities, body))
-    middle = pieces.start + pieces.width / 2
-    pieces = pieces.take(_outside(*pieces.circles(middle)) > 0)
-    blocks = [_integrals(pieces.take(block)) for block in _blocks(pieces, len(_T))]
-    integrals = (np.concatenate(each) for each in zip(*blocks, strict=True))
+    pieces = _pieces(cavities, body)
+    behind = pieces.start >= cavities.L_c[pieces.case]
+    ahead = pieces.take(~behind)
+    ahead = _split_at_contacts(ahead.take(~_is_dry(ahead)))
+    middle = ahead.start + ahead.width / 2
+    ahead, behind = ahead.take(_outside(*ahead.circles(middle)) > 0), pieces.take(behind)
+    blocks = [_integrals(ahead.take(block)) for block in _blocks(ahead, len(_T))]
+    case = np.concatenate([ahead.case, behind.case])
+    parts = [(ahead.width, *map(np.concatenate, zip(*blocks, strict=True)))]
+    parts.append((behind.width, *_all_round(behind)))
     length, area, moment = (
-        np.bincount(pieces.case, part, minlength=cases).astype(float)
-        for part in (pieces.width, *integrals)
+        np.bincount(case, np.concatenate(each), minlength=cases).astype(float)
+        for each in zip(*parts, strict=True)
     )
     wet = area > 0
     centroid = np.where(wet, moment / np.where(wet, area, 1.0), tail)
     return WettedSurface(np.where(wet, length, 0.0), area, centroid)
+
+
+def _is_dry(pieces: _Pieces) -> npt.NDArray[np.bool_]:
+    """Tell which pieces are inside the cavity from end to end, by more than rounding."""
+    R = pieces.radius(pieces.start), pieces.radius(pieces.end)
+    bound = pieces.cavity.protrusion_bound(pieces.start, pieces.end, *R)
+    return np.asarray(bound < -_ROUNDING * np.maximum(*R))
 
 
 def _blocks(pieces: _Pieces, points: int) -> list[slice]:
@@ -189,6 +205,13 @@ def _integrals(pieces: _Pieces) -> tuple[Array, Array]:
     angle = wet_angle(R, R_c, d)
     strips = pieces.width * _DT * wetted_width(R, angle, pieces.cavities.model.planing_area)
     return reduce(np.add, strips), reduce(np.add, strips * x)
+
+
+def _all_round(pieces: _Pieces) -> tuple[Array, Array]:
+    """Return the same of pieces behind the closure, which are wet all round: R runs straight."""
+    around = wetted_width(1.0, 2 * math.pi, pieces.cavities.model.planing_area) * pieces.width
+    (a, b), (R, S) = (pieces.start, pieces.end), map(pieces.radius, (pieces.start, pieces.end))
+    return around * (R + S) / 2, around * (R * (2 * a + b) + S * (a + 2 * b)) / 6
 
 
 def _pieces(cavities: Cavity, body: Profile) -> _Pieces:
@@ -225,9 +248,9 @@ def _split_at_contacts(pieces: _Pieces) -> _Pieces:
     which, low, high, around = (np.concatenate(each) for each in zip(*found, strict=True))
     touched = pieces.take(which)
 
-    def gap(x: Array) -> Array:
-        R, R_c, d = touched.circles(x)
-        return np.where(around, _around(R, R_c, d), _outside(R, R_c, d))
+    def gap(x: Array, rows: Integers) -> Array:
+        R, R_c, d = (touched if len(rows) == len(which) else touched.take(rows)).circles(x)
+        return np.where(around[rows], _around(R, R_c, d), _outside(R, R_c, d))
 
     return _cut(pieces, which, find_roots(gap, low, high))
 
