@@ -373,7 +373,7 @@ class TestBoundOfProtrusion:
             hole = form_cavity(
                 0.08,
                 rng.uniform(0.01, 0.6),
-                speed=rng.uniform(15, 120),
+                speed=rng.uniform(1, 40),
                 gravity=9.81,
                 body_length=6.0,
                 body_angle=rng.uniform(-0.1, 0.1),

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 FORMAT = 3
 TIMESTAMPS = ("created", "finished")
 """Attributes that differ from run to run."""
+UNLIKE, SWAPPED = 1, 2
+"""What is doubtful of a track: the mode is unlike its neighbour, or has another number there."""
 TRACKED = ("tracked_mode", "tracked_mac", "tracked_doubtful", "tracked_frequency_hz")
 """Outputs that are known after all cases."""
 
@@ -113,7 +115,10 @@ def _tracked_variables(study: Study, n: int, modes: int) -> dict[str, Output]:
     hz = {"units": "Hz", "long_name": "frequency of each tracked mode"}
     mac = {"units": "1", "long_name": "likeness with the neighbouring case (MAC)"}
     limit = study.tracking.doubtful
-    doubt = {"long_name": f"1 where tracked_mac is below {limit:g}: it may be another mode"}
+    doubt = {
+        "long_name": f"1 where tracked_mac is below {limit:g}: it may be another mode; 2 where the "
+        "mode has another number than in the neighbour: it crossed one, or veered in that step"
+    }
     mode = {"long_name": "index of the mode that a track is; -1 where the case failed"}
     form = {"units": "1", "long_name": "shape of each mode, of unit norm"}
     return {
@@ -190,9 +195,13 @@ def final_attributes(
             f"{study.tracking.doubtful:g}) that the track may go on along another one: take more "
             "values between them"
         )
-        found += counted_warnings(
-            [told], [np.any(doubtful, axis=1) * np.ones(1, np.int8)], points.cases
+        crossed = (
+            "two modes of a family change their order between neighbours: they crossed, or veered "
+            "within that one step, and then the tracks should have stayed apart: take more values "
+            "between them"
         )
+        marks = np.any(doubtful == UNLIKE, axis=1) + 2 * np.any(doubtful == SWAPPED, axis=1)
+        found += counted_warnings([told, crossed], [marks], points.cases)
     number = sum(int(np.count_nonzero(failed(some))) for some in reasons)
     return {"failed": number, "warnings": found, "finished": _now()}
 

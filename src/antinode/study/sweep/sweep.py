@@ -24,6 +24,8 @@ from antinode.study.design.points import Points, points_of
 
 from .cluster import close, connect, run_on_dask
 from .contents import (
+    SWAPPED,
+    UNLIKE,
     attributes,
     coordinates_of,
     final_attributes,
@@ -231,10 +233,13 @@ def tracked(points: Points, arrays: Arrays) -> Arrays:
     hz = arrays["frequency_hz"] if "frequency_hz" in arrays else np.zeros(arrays["shape"].shape[:2])
     shapes = np.where(failed(arrays["reason"])[:, None, None], np.nan, arrays["shape"])
     found = track(shapes, hz, neighbours(points.shape), study.subject.mass_at(x), study.solve.modes)
+    doubt = np.where(
+        found.mac < study.tracking.doubtful, UNLIKE, np.where(found.swapped, SWAPPED, 0)
+    )
     own = np.take_along_axis(hz, np.maximum(found.mode, 0), axis=1)
     return {
         "tracked_mode": found.mode.astype(np.int16),
         "tracked_mac": found.mac,
-        "tracked_doubtful": (found.mac < study.tracking.doubtful).astype(np.int8),
+        "tracked_doubtful": doubt.astype(np.int8),
         "tracked_frequency_hz": np.where(found.mode >= 0, own, np.nan),
     }

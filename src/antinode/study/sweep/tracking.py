@@ -3,7 +3,9 @@
 ``MAC = (u . v)^2 / (u^2 v^2)`` with the mass as weight is 1 for equal shapes and 0 for different
 modes of one body. From each case to its neighbour, modes are paired so that the sum of MAC is
 largest: a mode goes on through crossings, and through veerings as its shape turns. A family is
-tracked by itself: bending and longitudinal modes never mix.
+tracked by itself: bending and longitudinal modes never mix. Where two tracks of a family change
+places between neighbours, the modes crossed, or veered within that one step: their shapes before
+and after are alike, so that the likeness alone does not tell.
 """
 
 from __future__ import annotations
@@ -11,6 +13,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from antinode.arrays import Array, Integers
 
@@ -26,10 +29,13 @@ class Tracks(NamedTuple):
         Index along the modes; -1 where the case failed.
     mac : array, shape (cases, tracks)
         Likeness with the neighbour; 1 where the track starts, NaN where the case failed.
+    swapped : array of bool, shape (cases, tracks)
+        Whether the mode has another number than in the neighbour.
     """
 
     mode: Integers
     mac: Array
+    swapped: npt.NDArray[np.bool_]
 
 
 def neighbours(shape: tuple[int, ...]) -> Integers:
@@ -69,6 +75,7 @@ def track(shapes: Array, omega2: Array, before: Integers, weights: Array, family
     size = np.linalg.norm(scaled, axis=-1, keepdims=True)
     scaled = scaled / np.where(size > 0, size, 1.0)
     mode, mac = np.full((cases, modes), -1), np.full((cases, modes), np.nan)
+    swapped = np.zeros((cases, modes), dtype=bool)
     known = np.full(cases, -1)  # the last case on the way here that did not fail
     for i in range(cases):
         back = known[before[i]] if before[i] >= 0 else -1
@@ -90,4 +97,5 @@ def track(shapes: Array, omega2: Array, before: Integers, weights: Array, family
             rows, columns = linear_sum_assignment(_TIE * apart - likeness)
             mode[i, own] = columns + first
             mac[i, own] = likeness[rows, columns]
-    return Tracks(mode, mac)
+            swapped[i, own] = mode[i, own] != was
+    return Tracks(mode, mac, swapped)

@@ -12,6 +12,7 @@ import antinode as an
 from antinode.study.cases.values import case_of
 from antinode.study.design.file import Tracking
 from antinode.study.design.points import points_of
+from antinode.study.sweep.contents import final_attributes
 from antinode.study.sweep.figures import crossings, plot_sweep
 from antinode.study.sweep.sweep import sweep
 from antinode.study.sweep.tracking import neighbours, track
@@ -266,6 +267,36 @@ def test_doubtful_tracks_are_marked_counted_and_drawn(case):
     usual = sweep(study(case, text + "tracking.doubtful = 0"))
     assert int(usual.tracked_doubtful.sum()) == 0
     assert not [w for w in usual.attrs["warnings"] if "tracking" in w["message"]]
+
+
+def test_a_veering_jumped_over_whole_is_marked():
+    """Two beams side by side, weakly coupled: far from the veering shapes are those of either."""
+
+    def shapes(detuning):
+        _, vectors = np.linalg.eigh([[1 + detuning, 0.01], [0.01, 1 - detuning]])
+        return vectors.T
+
+    def tracked(values):
+        each = np.stack([shapes(v) for v in values])
+        order = np.tile([1.0, 2.0], (len(values), 1))
+        return track(each, order, neighbours((len(values),)), np.ones(2), 2)
+
+    coarse, fine = tracked([-0.5, 0.5]), tracked(np.linspace(-0.5, 0.5, 2001))
+    assert coarse.mac.min() > 0.99
+    assert coarse.swapped.tolist() == [[False, False], [True, True]]
+    assert not fine.swapped.any()
+    assert fine.mac.min() > 0.95
+
+
+def test_order_that_changes_is_counted(case):
+    points = points_of(study(case, "inputs = [{ key = 'speed', values = [70, 80, 90] }]"))
+    doubtful = np.array([[0, 0], [2, 2], [1, 0]], dtype=np.int8)
+    none = [np.zeros(3, dtype=np.int64)]
+    unlike, swapped = final_attributes(points, none, none, doubtful)["warnings"]
+    assert "tracking.doubtful" in unlike["message"]
+    assert (unlike["count"], unlike["first_case"]) == (1, 2)
+    assert "change their order" in swapped["message"]
+    assert (swapped["count"], swapped["first_case"]) == (1, 1)
 
 
 def test_a_veering_crossed_in_one_coarse_step_is_doubtful_by_default():
