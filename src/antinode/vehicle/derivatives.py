@@ -35,6 +35,7 @@ from antinode.beam.mass import moments_within
 from antinode.beam.profile import Profile
 from antinode.modes.backends import BackendName, choose
 from antinode.modes.following import left_states
+from antinode.modes.result import Solution
 from antinode.riccati.chain import Chain, largest_wave_number
 from antinode.riccati.shapes import propagate
 
@@ -56,7 +57,9 @@ _FEW, _MANY = _gauss(3), _gauss(8)
 
 @dataclass(frozen=True)
 class ChainModes:
-    """Eigenvalues of one family on a chain, with what the derivatives need of their shapes.
+    """Eigenvalues of one family on a chain, with the weights of their derivatives.
+
+    The modes themselves are a `Solution`, as those of `solve_modes` are.
 
     Attributes
     ----------
@@ -207,18 +210,14 @@ class ChainModes:
         signed = np.stack([-turn[0] * move[0], turn[-1] * move[-1]])
         return np.asarray(signed / self._modal_mass)
 
-    def at(self, x: Array) -> Array:
-        """Return the states at places between nose and tail [m], shape (points, k, s)."""
-        return self._at(self.states, x)
-
-    def _at(self, states: Array, x: Array) -> Array:
-        nodes = self.chain.nodes
-        k = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, len(nodes) - 2)
-        return propagate(self.chain, states[k], self.omega2, x - nodes[k], k)
+    @cached_property
+    def solution(self) -> Solution:
+        """The modes, exact at every place of the chain, each to a scale of its own."""
+        return Solution(self.chain, self.omega2, self.states)
 
     def displacement(self, x: Array) -> Array:
         """Return the displacements of the modes at places [m], to any scale, (points, k)."""
-        return np.asarray(self.at(x)[..., 0])
+        return np.asarray(self.solution.at(x)[..., 0])
 
     def slope_squared(self, x: float) -> Array:
         """Return what N works on at a place, over the modal mass, shape (k,).
@@ -226,7 +225,8 @@ class ChainModes:
         That is Y'^2, without shear; with it, Haringx' Y'^2 less the shear angle's square, or
         Engesser's Y'^2, as a mean of both sides where N jumps.
         """
-        both = [self._at(z, np.array([x]))[0] for z in (self.states, self.left_states)]
+        here = replace(self.solution, states=self.left_states) if self.chain.follows else None
+        both = [z.at(np.array([x]))[0] for z in (self.solution, here or self.solution)]
         right, left = both
         if "shear" not in self.chain.columns:
             return np.asarray(right[:, 1] * left[:, 1] / self._modal_mass)
