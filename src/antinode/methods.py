@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .modes import frequencies
     from .modes.backends import BackendName
     from .modes.buckling import Buckling
-    from .modes.damped.family import Damping as Whether
+    from .modes.result import Damping as Whether
     from .modes.result import Method as Kinds
     from .modes.result import ModalResult, Normalisation
     from .response import solve as responses

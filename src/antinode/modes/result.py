@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 Kind = Literal["rigid", "elastic", "divergent", "flutter", "overdamped"]
 Method = Literal["riccati", "tmm"]
 Normalisation = Literal["amplitude", "mass"]
+Damping = Literal["auto", "none", "complex"]
 
 NOT_MODELLED = (
     "shear deformation and rotary inertia (their effect is estimated to first order)",

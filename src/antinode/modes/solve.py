@@ -30,13 +30,11 @@ from antinode.text import short
 
 from .backends import Backend, BackendName, choose, for_one
 from .brackets import ROUNDING, cancelling
-from .damped.family import Damping
-from .damped.modes import damped_modes
 from .following import energies_of_modes
 from .hertz import settled
 from .naming import name_modes, with_joint_brackets
 from .refinement import NEAR_ZERO, Solved, solve_family
-from .result import Kind, Method, ModalResult, Mode, Normalisation, Solution
+from .result import Damping, Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .shapes import estimate_model_errors, normalising_factors, on_grid, output_grid, shapes
 from .solvers import Solver, solver_of
 from .warnings import result_warnings
@@ -175,6 +173,8 @@ def _solve_families(
     certificates: dict[FamilyName, Mapping[str, Any]] = {}
     for family in families:
         if family in damped:
+            from .damped.modes import damped_modes
+
             own = damped_modes(
                 beam, family, modes, tolerance, solver.backend, grid, normalisation, lossy=True
             )

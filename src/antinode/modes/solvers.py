@@ -13,7 +13,6 @@ from typing import Any, ClassVar, Literal
 from antinode.arrays import Array
 from antinode.errors import ComputationError, InputError
 from antinode.riccati.chain import Chain
-from antinode.riccati.literal import find_eigenvalues_tmm
 from antinode.riccati.roots import CountingError, Eigenvalue, check_certificate
 
 from .backends import Backend
@@ -127,6 +126,8 @@ class TransferMatrices(Solver):
         self, chain: Chain, wanted: int, *, zeros: int, expected: Array | None = None
     ) -> Found:
         """Scan as far as the counts say that the eigenvalues reach, and compare with them."""
+        from antinode.riccati.literal import find_eigenvalues_tmm
+
         if chain.follows:
             raise InputError(
                 "method 'tmm' knows end forces of fixed direction alone; set the follower shares "

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -28,7 +28,6 @@ from antinode.riccati.roots import CountingError, Eigenvalue
 
 from .rest import AtRest, at_rest
 
-Damping = Literal["auto", "none", "complex"]
 _MOST_SEGMENTS = 20_000
 NOT_PROVEN = (
     "that no mode is missing is not proven here: what damps, feeds back or follows is too large "
