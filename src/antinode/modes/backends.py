@@ -14,7 +14,7 @@ from antinode.arrays import Array, Integers
 from antinode.errors import ComputationError
 from antinode.riccati.chain import Chain, Evaluation
 from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
-from antinode.riccati.roots import Eigenvalue
+from antinode.riccati.roots import Eigenvalue, FollowingRoots
 from antinode.riccati.shapes import Energies
 
 BackendName = Literal["auto", "numpy", "numba"]
@@ -45,6 +45,12 @@ class Backend(Protocol):
         expected: Array | None = None,
     ) -> list[Eigenvalue]:
         """Return the lowest eigenvalues of a chain, certified, without a gap."""
+        ...
+
+    def find_following(
+        self, chain: Chain, below: int, wanted: int, /, *, zeros: int, free: bool, width: float
+    ) -> FollowingRoots | None:
+        """Return the lowest eigenvalues where ends follow, proven; None if it does not prove."""
         ...
 
     def solve_chains(self, chains: Chains, below: int, number: int, width: float, /) -> ChainRoots:

@@ -405,7 +405,7 @@ def _alone(solver: Backend, batch: BeamBatch, row: int, results: ChainRoots) -> 
         return INVALID
     zeros = zeros_of(batch.ends, chain) if below else 0
     try:
-        found = eigenvalues_alone(solver, chain, below + batch.modes, zeros, _WIDTH)
+        found = eigenvalues_alone(solver, chain, below + batch.modes, zeros, _WIDTH, below)
         if not check_certificate(found):
             return NOT_BRACKETED
         wanted = elastic(found, below, chain)[: batch.modes]

@@ -7,7 +7,7 @@ make of it tells how many eigenvalues lie left of a line (`riccati.following_roo
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,19 +18,19 @@ from antinode.errors import ComputationError
 from antinode.riccati.arrays import Complex
 from antinode.riccati.chain import Chain
 from antinode.riccati.laws import Squares
-from antinode.riccati.roots import CountingError, Eigenvalue
+from antinode.riccati.roots import Certificate, CountingError, Eigenvalue, FollowingRoots
 from antinode.riccati.shapes import Energies
 
 from .backends import Backend
+from .rigid import rigid_modes
 from .solvers import Counting, Found, Solver
-
-if TYPE_CHECKING:
-    from antinode.riccati.following_roots import Certificate
 
 NOT_PROVEN = (
     "that no mode is missing is not proven here: the forces that follow are too large beside the "
     "stiffness; compare with fewer or more modes"
 )
+
+_WIDTH = 1e-10  # relative, of brackets in omega^2
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,8 @@ class Following(Solver):
     """Ends whose force follows: real eigenvalues by changes of sign, pairs by circles."""
 
     backend: Backend
+    rigid: int | None = None
+    """Eigenvalues that the supports leave rigid, if that is known."""
     certificate = "winding"
 
     @property
@@ -60,15 +62,9 @@ class Following(Solver):
         """
         if not chain.follows:
             return self.counting.find(chain, wanted, zeros=zeros, expected=expected)
-        from antinode.riccati.following_roots import Finder
-
         exact = int(zeros > 0 and translates_freely(chain))  # a turn is free in the limit
-
-        def fixed(number: int) -> list[Eigenvalue]:
-            return self.counting.find(chain.fixed, number, zeros=exact).eigenvalues
-
         try:
-            found = Finder(chain, fixed, exact, 1e-10).find(wanted, pairs)
+            found = self._find(chain, wanted, exact, zeros > exact, pairs)
         except (CountingError, FloatingPointError) as error:
             raise ComputationError(
                 f"the {chain.law.name} eigenvalues could not be enclosed: {error}; "
@@ -79,16 +75,41 @@ class Following(Solver):
         warnings = () if proven else (f"{chain.law.name}: {NOT_PROVEN}",)
         return Found(eigenvalues, warnings, certificate_dict(found.certificate, proven))
 
+    def _find(
+        self, chain: Chain, wanted: int, zeros: int, free: bool, pairs: Complex | None
+    ) -> FollowingRoots:
+        """Find them by what the backend proves at once, or else by winding numbers."""
+        if self.rigid is not None and pairs is None:
+            settings: dict[str, Any] = {"zeros": zeros, "free": free, "width": _WIDTH}
+            found = self.backend.find_following(chain, self.rigid, wanted, **settings)
+            if found is not None:
+                return found
+        from antinode.riccati.following_roots import Finder
+
+        def fixed(number: int) -> list[Eigenvalue]:
+            return self.counting.find(chain.fixed, number, zeros=zeros).eigenvalues
+
+        return Finder(chain, fixed, zeros, _WIDTH).find(wanted, pairs)
+
 
 def certifying(solver: Solver, beam: Beam, family: FamilyName) -> Solver:
     """Return the solver that certifies a family of a beam, by the same backend."""
-    return Following(solver.backend) if any(beam.following(family)) else solver.counting
+    if not any(beam.following(family)):
+        return solver.counting
+    return Following(solver.backend, len(rigid_modes(beam, family)))
 
 
 def eigenvalues_alone(
-    backend: Backend, chain: Chain, number: int, zeros: int, width: float
+    backend: Backend,
+    chain: Chain,
+    number: int,
+    zeros: int,
+    width: float,
+    rigid: int | None = None,
 ) -> list[Eigenvalue]:
     """Return the lowest eigenvalues of one chain, whether its end forces follow or not.
+
+    `rigid` tells how many the supports leave rigid, if that is known: it saves time.
 
     Raises
     ------
@@ -97,6 +118,11 @@ def eigenvalues_alone(
     """
     if not chain.follows:
         return backend.find_eigenvalues(chain, number, zeros=zeros, width=width)
+    if rigid is not None:
+        settings: dict[str, Any] = {"zeros": zeros, "free": False, "width": width}
+        known = backend.find_following(chain, rigid, number, **settings)
+        if known is not None:
+            return known.eigenvalues
     from antinode.riccati.following_roots import Finder
 
     def fixed(count: int) -> list[Eigenvalue]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
@@ -20,7 +19,7 @@ import numpy as np
 from .arrays import Array, Complex
 from .chain import Chain, evaluate, omega2_scale
 from .following import Following, beyond
-from .roots import CountingError, Eigenvalue
+from .roots import Certificate, CountingError, Eigenvalue, FollowingRoots
 from .winding import Samples, Turns, around, holds_one, left_of
 
 FixedEigenvalues = Callable[[int], list[Eigenvalue]]
@@ -34,51 +33,6 @@ _ROUNDED = 1e-7  # of a zero, up to which steps that shrink no more are rounding
 _STEPS = 1e-3, 1e-5  # share of an imaginary part: against rounding, and beside a pole
 _ON_AXIS = 1e-9  # share of an imaginary part that is rounding
 _SINE = math.sin(math.pi / 8)  # of theta/2 left of the line, as far off as 1.5 R
-
-
-@dataclass(frozen=True)
-class Certificate:
-    """Why nothing is missing and nothing too many left of a line.
-
-    Attributes
-    ----------
-    below : float
-        R, where the line crosses the axis [rad^2/s^2].
-    fixed : int
-        Eigenvalues below R with fixed directions, by counts.
-    turns : int
-        Of g about zero: what there is more of where ends follow.
-    samples : int
-        Of g, on half the line.
-    margin : float
-        Least share of g that the bounds between samples leave; not proven where it is not positive.
-    """
-
-    below: float
-    fixed: int
-    turns: int
-    samples: int
-    margin: float
-
-    @property
-    def proven(self) -> bool:
-        """Whether every arc is bounded in phase."""
-        return self.margin > 0.0
-
-    @property
-    def number(self) -> int:
-        """Eigenvalues left of the line."""
-        return self.fixed + self.turns
-
-
-@dataclass(frozen=True)
-class FollowingRoots:
-    """Eigenvalues left of a line: real ones ascending, complex pairs, and their certificate."""
-
-    eigenvalues: list[Eigenvalue]
-    certificate: Certificate
-    complete: bool
-    """Whether as many were enclosed as were proven to be there."""
 
 
 Bracket = tuple[float, float, float, float]

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from .arrays import Array
-from .chain import evaluate
+from .chain import Chain, evaluate
 from .chains import BeamRoots, ChainRoots, Chains, Tables
 from .reasons import BY_ITSELF
-from .roots import find_eigenvalues
+from .roots import FollowingRoots, find_eigenvalues
 from .shapes import mode_energies, mode_states
 
 __all__ = [
     "certify_guesses",
     "evaluate",
     "find_eigenvalues",
+    "find_following",
     "mode_energies",
     "mode_states",
     "name",
@@ -31,6 +32,13 @@ def solve_chains(chains: Chains, below: int, number: int, width: float) -> Chain
 def certify_guesses(chains: Chains, guess: Array, below: int, width: float) -> ChainRoots:
     """Leave every chain to be solved by itself."""
     return solve_chains(chains, below, guess.shape[1], width)
+
+
+def find_following(
+    chain: Chain, below: int, wanted: int, *, zeros: int, free: bool, width: float
+) -> FollowingRoots | None:
+    """Return None: the winding number proves it (`riccati.following_roots`)."""
+    return None
 
 
 def solve_beam(

@@ -65,6 +65,51 @@ class Eigenvalue:
         return (abs(complex(self.omega2, self.imaginary)) + self.omega2) / 2
 
 
+@dataclass(frozen=True)
+class Certificate:
+    """Why nothing is missing and nothing too many left of a line.
+
+    Attributes
+    ----------
+    below : float
+        R, where the line crosses the axis [rad^2/s^2].
+    fixed : int
+        Eigenvalues below R with fixed directions, by counts.
+    turns : int
+        Of g about zero: what there is more of where ends follow.
+    samples : int
+        Of g, on half the line.
+    margin : float
+        Least share of g that the bounds between samples leave; not proven where it is not positive.
+    """
+
+    below: float
+    fixed: int
+    turns: int
+    samples: int
+    margin: float
+
+    @property
+    def proven(self) -> bool:
+        """Whether every arc is bounded in phase."""
+        return self.margin > 0.0
+
+    @property
+    def number(self) -> int:
+        """Eigenvalues left of the line."""
+        return self.fixed + self.turns
+
+
+@dataclass(frozen=True)
+class FollowingRoots:
+    """Eigenvalues left of a line: real ones ascending, complex pairs, and their certificate."""
+
+    eigenvalues: list[Eigenvalue]
+    certificate: Certificate
+    complete: bool
+    """Whether as many were enclosed as were proven to be there."""
+
+
 class Samples:
     """Evaluations of a chain, sorted by omega^2."""
 

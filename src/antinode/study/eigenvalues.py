@@ -123,7 +123,7 @@ def _solve(chain: Chain, number: int) -> Array:
     rigid = rigid_modes_of(FREE, chain.family)
     try:
         zeros = zeros_of(FREE, chain)
-        found = eigenvalues_alone(choose(), chain, number + rigid, zeros, 1e-10)
+        found = eigenvalues_alone(choose(), chain, number + rigid, zeros, 1e-10, rigid)
     except (CountingError, FloatingPointError) as error:
         wrong = f"the {chain.family} eigenvalues could not be found: {error}"
         raise ComputationError(wrong) from error

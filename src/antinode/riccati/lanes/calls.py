@@ -16,9 +16,10 @@ from antinode.riccati.chain import evaluate as evaluate_readable
 from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
 from antinode.riccati.laws import BENDING
 from antinode.riccati.reasons import CERTIFIED, CHAIN_TOO_SMALL, TABLE_TOO_SMALL
-from antinode.riccati.roots import Eigenvalue, check_certificate
+from antinode.riccati.roots import Eigenvalue, FollowingRoots, check_certificate
 from antinode.riccati.roots import find_eigenvalues as find_readable
 
+from . import single
 from .laws import FORMS
 from .library import library
 from .scratch import Need, new_table, scratch
@@ -32,6 +33,7 @@ __all__ = [
     "certify_guesses",
     "evaluate",
     "find_eigenvalues",
+    "find_following",
     "mode_energies",
     "mode_states",
     "name",
@@ -307,6 +309,16 @@ def find_eigenvalues(
     if found is not None and check_certificate(found):
         return found
     return find_readable(chain, wanted, zeros=zeros, width=width, expected=expected)
+
+
+def find_following(
+    chain: Chain, below: int, wanted: int, *, zeros: int, free: bool, width: float
+) -> FollowingRoots | None:
+    """Return the lowest eigenvalues where ends follow, proven; None where that is for Python."""
+    if _needs_frames(chain):
+        return None
+    asked = below, wanted
+    return single.find_following(chain, *asked, zeros=zeros, free=free, width=width)
 
 
 def _by_determinants(

@@ -42,7 +42,7 @@ from .prediction import shifted
 from .search import carry_chain, find_roots
 from .workspace import AT, COUNT, LANES, OMEGA2, POWER, VALUE, A, B, D, E, F, Task
 
-_STEPS = 4  # from fixed directions to those that follow, for guesses
+_FIRST_SHARE = 0.125  # of all forces, for guesses
 _NEAR = 0.97  # of abs(g - 1) that is less than 1 for certain
 _COUNTS = 3  # lanes that look for a gap
 """Lanes of the proof: three counts in the gap; then at -t the fixed chain's plane, those of a unit
@@ -56,23 +56,17 @@ unit moment, and those of a unit force at the left."""
 def find_all(chain, task, warm, reach, roots, table, lanes, search):
     """Find and certify the roots that a task names, as `search.find_roots` does.
 
-    Where ends follow, a search without guesses starts from fixed directions.
+    Where ends follow, a search without guesses starts from a share of all forces.
     """
     kappa = chain.following
-    left, right = kappa[0], kappa[1]
-    if left == 0.0 and right == 0.0:
+    if kappa[0] == 0.0 and kappa[1] == 0.0:
         return find_roots(chain, task, warm, reach, roots, table, lanes, search)
     total = 0
     if not warm:
-        rough = Task(task.below, 1e-4, False)
-        for step in range(_STEPS):
-            kappa[0], kappa[1] = left * step / _STEPS, right * step / _STEPS
-            reason, more = find_roots(chain, rough, step > 0, 0.0, roots, table, lanes, search)
-            if reason != CERTIFIED:
-                kappa[0], kappa[1] = left, right
-                return reason, more if reason == TABLE_TOO_SMALL else total + more
-            total += more
-        kappa[0], kappa[1] = left, right
+        reason, more = _guess(chain, task.below, roots, table, lanes, search)
+        if reason != CERTIFIED:
+            return reason, more
+        total += more
     reason, more = find_roots(chain, task, True, reach, roots, table, lanes, search)
     if reason == TABLE_TOO_SMALL:
         return reason, more
@@ -81,8 +75,47 @@ def find_all(chain, task, warm, reach, roots, table, lanes, search):
         return reason, total
     if not _all_change_sign(roots, search):
         return NOT_BRACKETED, total
-    reason, more = _prove(chain, task.below, roots.omega2, reach, table, lanes)
+    reason, more = _prove(chain, task.below, roots.omega2, reach, table, lanes, search.proof)
     return reason, more if reason == TABLE_TOO_SMALL else total + more
+
+
+@compiled
+def _guess(chain, below, roots, table, lanes, search):
+    """Set guesses: roots under shares of all forces, doubled until half of them is reached.
+
+    The first is that of fixed directions, under so little that mostly none diverges. Shares are
+    powers of two: forces come back to the last bit. Returns the reason, and the number of samples,
+    or that of the table's columns needed.
+    """
+    kappa, rough = chain.following, Task(below, 1e-4, False)
+    left, right, share, before = kappa[0], kappa[1], _FIRST_SHARE, roots.rounding
+    laws.scale_force(chain, share)
+    kappa[0] = kappa[1] = 0.0
+    reason, total = find_roots(chain, rough, False, 0.0, roots, table, lanes, search)
+    while reason == CERTIFIED and share < 1.0:
+        kappa[0], kappa[1] = left * share, right * share
+        reason, more = find_roots(chain, rough, True, 0.0, roots, table, lanes, search)
+        total = more if reason == TABLE_TOO_SMALL else total + more
+        _go_on(roots.omega2, before, share > _FIRST_SHARE)
+        laws.scale_force(chain, 2.0)
+        share *= 2.0
+    laws.scale_force(chain, 1.0 / share)
+    kappa[0], kappa[1] = left, right
+    return reason, total
+
+
+@compiled
+def _go_on(root, before, known):
+    """Let roots go on as they did when the forces were doubled before; keep them for the next."""
+    rises = known
+    for k in range(len(root)):
+        last = root[k - 1] + 2.0 * (root[k - 1] - before[k - 1]) if k > 0 else 0.0
+        rises = rises and root[k] + 2.0 * (root[k] - before[k]) > last
+    for k in range(len(root)):
+        now = root[k]
+        if rises:
+            root[k] += 2.0 * (now - before[k])
+        before[k] = now
 
 
 @compiled
@@ -99,10 +132,11 @@ def _all_change_sign(roots, search):
 
 
 @compiled
-def _prove(chain, below, root, filled, table, lanes):
+def _prove(chain, below, root, filled, table, lanes, proof):
     """Tell whether the roots, and so many below them, are all that lie left of a line.
 
     The table is filled up to `filled`. Also the samples, or the columns that the table needs.
+    `proof` is set: the line, what g keeps of 1, the samples.
     """
     n = len(root)
     top = root[n - 1]
@@ -131,8 +165,11 @@ def _prove(chain, below, root, filled, table, lanes):
     if int(state[COUNT + 3]) != 0 or not _are_below(chain, below, lanes):
         return NOT_BRACKETED, LANES
     far = _receptances(3, 4, 5, state)
-    if _has_gap(number, _COUNTS, state) and _nearness(chain, far, _widest(top, state)) < _NEAR:
-        return CERTIFIED, LANES
+    if _has_gap(number, _COUNTS, state):
+        near = _nearness(chain, far, _widest(top, state))
+        if near < _NEAR:
+            proof[0], proof[1], proof[2] = state[OMEGA2 + 1], 1.0 - near, LANES
+            return CERTIFIED, LANES
     _start_fixed(chain, lanes)
     for lane in range(LANES):
         state[OMEGA2 + lane] = (place + spacing * _INSIDE[lane % 2]) ** 4
@@ -149,7 +186,9 @@ def _prove(chain, below, root, filled, table, lanes):
         _factor(far[2], (other[2] - one[2]) / (high - low), total),
         _factor(far[3], (other[3] - one[3]) / (high - low), total),
     )
-    proven = _has_gap(number, 2, state) and _nearness(chain, far, factors) < _NEAR
+    near = _nearness(chain, far, factors)
+    proof[0], proof[1], proof[2] = (low + high) / 2, 1.0 - near, 2 * LANES
+    proven = _has_gap(number, 2, state) and near < _NEAR
     return (CERTIFIED if proven else NOT_BRACKETED), 2 * LANES
 
 

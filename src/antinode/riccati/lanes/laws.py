@@ -17,7 +17,7 @@ from antinode.riccati.points import Point
 
 from . import bending, pieces, sheared, wave
 from .compiling import compiled
-from .workspace import HOLDS_THETA, HOLDS_Y, LANES, OMEGA2, POWER
+from .workspace import HOLDS_THETA, HOLDS_Y, LANES, OMEGA2, POWER, SHEAR_TURN, SHEAR_WORK
 
 _BENDING, _WAVE, _SHEARED = 0, 1, 2
 
@@ -200,6 +200,17 @@ def first_samples(chain, number, samples):
         wave.first_samples(h, m, K, number, samples)
     samples[number] = -1.0
     return number + 1
+
+
+@compiled
+def scale_force(chain, times):
+    """Multiply the axial force, and what shear makes of it."""
+    force, more = chain.force, chain.more
+    for k in range(len(force)):
+        force[k] *= times
+    for k in range(more.shape[1]):
+        more[SHEAR_TURN, k] *= times
+        more[SHEAR_WORK, k] *= times * times
 
 
 @compiled

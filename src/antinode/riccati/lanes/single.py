@@ -1,19 +1,36 @@
-"""One chain in compiled code: evaluations and root searches."""
+"""One chain in compiled code: evaluations and root searches.
+
+Where end forces follow, the elastic eigenvalues are found and proven as those of batches are
+(`riccati.lanes.following`). One rotation is left below them that is not exactly zero: the one
+change of sign there of the characteristic function, divided by omega^2 where a translation is free.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from antinode.riccati.arrays import Array, Integers
-from antinode.riccati.chain import Chain, Evaluation
-from antinode.riccati.reasons import TABLE_TOO_SMALL
+from antinode.riccati.chain import Chain, Evaluation, omega2_scale
+from antinode.riccati.reasons import CERTIFIED, TABLE_TOO_SMALL
+from antinode.riccati.roots import Certificate, Eigenvalue, FollowingRoots
 
 from .laws import FORMS
 from .library import library
 from .scratch import scratch
 from .workspace import NO_MORE, POINT, Task, new_chain, new_roots
+
+_NEAREST = 1e-9  # to zero, of the chain's own omega^2, where the sign is sure
+_TINY = 1e-14  # of it, which is as good as zero
+_PLACES = 12  # on either side of zero
+_PASSES = 40
+_MORE = 0, 2, 5  # eigenvalues than are wanted
+_LANES_BESIDE = np.array([0.02, 3e-4, 5e-6])  # of a bracket, from where the root is expected
+
+Bracket = tuple[float, float, float, float]
+"""Two places with values of different signs, and these."""
 
 
 class Found(NamedTuple):
@@ -26,6 +43,12 @@ class Found(NamedTuple):
     counts: Integers
     rounding: Array
     evaluations: int
+    line: float
+    """Where ends follow: left of it the eigenvalues are proven to be all [rad^2/s^2]."""
+    margin: float
+    """What the proof leaves of 1."""
+    samples: int
+    """Of the proof."""
 
 
 def more_columns(chain: Chain) -> Array:
@@ -105,4 +128,111 @@ class SingleChain:
         omega2, low, high, rounding = (
             self.unit * v for v in (found.omega2, found.low, found.high, found.rounding)
         )
-        return Found(reason, omega2, low, high, found.counts, rounding, total)
+        line, margin, samples = search.structure.proof.tolist()
+        proof = self.unit * line, margin, int(samples)
+        return Found(reason, omega2, low, high, found.counts, rounding, total, *proof)
+
+
+# --- where end forces follow ----------------------------------------------------------------------
+
+
+def find_following(
+    chain: Chain, below: int, wanted: int, *, zeros: int, free: bool, width: float
+) -> FollowingRoots | None:
+    """Return the lowest eigenvalues of a chain, proven; None where this proof does not reach.
+
+    Parameters
+    ----------
+    chain : Chain
+        Without supports that need frames.
+    below, wanted : int
+        How many eigenvalues are rigid, and how many are wanted, rigid ones included.
+    zeros : int
+        How many are exactly zero on any chain.
+    free : bool
+        Whether the rotation is zero as the chain gets finer: it may be as near as it likes.
+    width : float
+        Relative width of the brackets in omega^2.
+    """
+    if not 0 <= below - zeros <= 1:
+        return None
+    ready, number = SingleChain(chain), max(wanted - below, 1)
+    for more in _MORE:  # higher gaps are easier to prove
+        found = ready.roots(below, number + more, width)
+        if found.reason == CERTIFIED or not found.omega2[0] > 0:
+            break
+    if found.reason != CERTIFIED:
+        return None
+    scale = omega2_scale(chain)
+    tiny = _TINY * scale
+    listed = [
+        Eigenvalue(0, omega2, (low, high), (0, 0))
+        for omega2, low, high in zip(*(v.tolist() for v in found[1:4]), strict=True)
+    ]
+    listed += [Eigenvalue(0, 0.0, (-tiny, tiny), (0, 0))] * zeros
+    if below > zeros:
+        edges = -found.line, listed[0].omega2 / 2
+        rotation = _rotation(ready, edges, _NEAREST * scale, zeros, free, width)
+        if rotation is None:
+            return None
+        listed.append(rotation)
+    listed.sort(key=lambda value: value.omega2)
+    numbered = [Eigenvalue(k + 1, v.omega2, v.bracket, (k, k + 1)) for k, v in enumerate(listed)]
+    proof = found.samples, found.margin
+    return FollowingRoots(numbered, Certificate(found.line, len(listed), 0, *proof), True)
+
+
+def _rotation(
+    ready: SingleChain,
+    edges: tuple[float, float],
+    nearest: float,
+    zeros: int,
+    free: bool,
+    width: float,
+) -> Eigenvalue | None:
+    """Bracket the one eigenvalue between two edges; None where it cannot be told from zero."""
+
+    def divided(places: Array) -> Array:
+        return np.asarray(ready(places).characteristic * (np.sign(places) if zeros % 2 else 1.0))
+
+    if not edges[1] > nearest:
+        return None
+    left, right = (np.geomspace(nearest, abs(edge), _PLACES) for edge in edges)
+    places = np.concatenate([-left[::-1], right])
+    values = divided(places)
+    change = np.flatnonzero(values[1:] * values[:-1] <= 0)
+    if len(change) != 1:
+        return None
+    k = int(change[0])
+    low, high, a, b = map(float, (*places[k : k + 2], *values[k : k + 2]))
+    bracket = low, high, a, b
+    if places[k] < 0 < places[k + 1]:
+        middle = float(_secant(bracket)) or nearest * _TINY
+        return Eigenvalue(0, middle, bracket[:2], (0, 0)) if free else None
+    low, high, a, b = _shrunk(divided, bracket, width)
+    root = min(max(_secant((low, high, a, b)), low), high)
+    return Eigenvalue(0, root, (low, high), (0, 0))
+
+
+def _shrunk(divided: Callable[[Array], Array], bracket: Bracket, width: float) -> Bracket:
+    """Return a bracket shrunk to its width: samples at once in whole passes of lanes."""
+    low, high, a, b = bracket
+    for _ in range(_PASSES):
+        size = width * max(abs(low), abs(high))
+        if high - low <= size:
+            break
+        guess, whole = _secant((low, high, a, b)), high - low
+        away = np.concatenate([[0.45 * size], _LANES_BESIDE * whole])
+        places = np.unique(np.concatenate([guess - away, guess + away, [(low + high) / 2]]))
+        places = places[(places > low) & (places < high)]
+        values = divided(places)
+        k = int(np.argmax(np.append(values, b) * a <= 0))
+        places, values = np.append(places, high), np.append(values, b)
+        before = (low, a) if k == 0 else (float(places[k - 1]), float(values[k - 1]))
+        low, a, high, b = *before, float(places[k]), float(values[k])
+    return low, high, a, b
+
+
+def _secant(bracket: Bracket) -> float:
+    low, high, a, b = bracket
+    return (low + high) / 2 if a == b else low - a * (high - low) / (b - a)

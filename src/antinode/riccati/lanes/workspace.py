@@ -169,6 +169,9 @@ class Search(NamedTuple):
     near: Integers
     x: Array
     y: Array
+    proof: Array
+    """Where ends follow: where the line of the proof crosses the axis, what is left of g there, and
+    its samples, shape (3,)."""
 
 
 class Warmth(NamedTuple):
@@ -274,6 +277,7 @@ def new_search(roots: int) -> Search:
         near=np.zeros(4, np.int64),
         x=np.zeros(4),
         y=np.zeros(4),
+        proof=np.zeros(3),
     )
 
 

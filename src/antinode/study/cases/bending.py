@@ -229,7 +229,7 @@ def _by_frames(chain: Chain, modes: int) -> tuple[Array, Array] | None:
     zeros = zeros_of(FREE, chain)
     rigid = rigid_modes_of(FREE, chain.family)
     try:
-        found = eigenvalues_alone(choose("numba"), chain, modes + rigid, zeros, _WIDTH)
+        found = eigenvalues_alone(choose("numba"), chain, modes + rigid, zeros, _WIDTH, rigid)
     except (CountingError, FloatingPointError, ValueError):
         return None
     rest = elastic(found, rigid, chain)[:modes]
