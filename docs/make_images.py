@@ -4,6 +4,7 @@ import io
 import math
 import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import matplotlib as mpl
 import numpy as np
@@ -19,14 +20,17 @@ from antinode import (
     load_beam,
     load_case,
     load_study,
+    root_loci,
     sensitivity,
     solve_modes,
     solve_response,
+    stability,
     sweep,
 )
 from antinode.show.end_forces import plot_end_forces
 from antinode.show.figures import PALETTE, plot_case, plot_loads, plot_modes, save
 from antinode.show.response_figures import plot_response
+from antinode.show.stability_figures import plot_loci
 from antinode.show.style import BODY, GREY, INK, WIDTH, styled
 from antinode.study.sensitivity.command import read_uncertain
 from antinode.study.sensitivity.command import tornado as plot_tornado
@@ -68,6 +72,17 @@ def end_forces() -> None:
     shape = result.mode("bending", 1).shape
     figure = plot_end_forces(result.x, shape, compare_end_forces(case, result))
     save(figure, IMAGES / "howto_end_forces.png")
+
+
+def stability_loci() -> None:
+    """Draw the root loci of the rocket of the how-to page."""
+    text = (Path(__file__).parent / "howto" / "stability.md").read_text("utf-8")
+    stations = text.split("# rocket.toml\n")[1].split("```")[0]
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "rocket.toml"
+        path.write_text(stations, encoding="utf-8")
+        beam = load_beam(path).beam()
+    save(plot_loci(root_loci(beam, stability(beam))), IMAGES / "howto_stability.png")
 
 
 def equipment() -> None:
@@ -257,6 +272,7 @@ MAKERS = (
     ruler_modes,
     howto,
     end_forces,
+    stability_loci,
     equipment,
     sweeps,
     tornado,

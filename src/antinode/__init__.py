@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from .response.quantities import Base, Force, Output
     from .response.shock import srs
     from .response.solve import beam_response, solve_response
+    from .stability.loci import Loci, root_loci
     from .stability.result import CriticalLoad, Stability
     from .stability.stability import stability
     from .study.answers.answers import Answers, case_table
@@ -108,6 +109,8 @@ _HOME = {
     "solve_response": "response.solve",
     "srs": "response.shock",
     "CriticalLoad": "stability.result",
+    "Loci": "stability.loci",
+    "root_loci": "stability.loci",
     "Stability": "stability.result",
     "stability": "stability.stability",
     "Identification": "study.identify.result",
@@ -153,6 +156,7 @@ __all__ = [
     "InputError",
     "Joint",
     "Loads",
+    "Loci",
     "Material",
     "ModalResult",
     "Mode",
@@ -185,6 +189,7 @@ __all__ = [
     "natural_frequencies",
     "open_store",
     "reproduce",
+    "root_loci",
     "run_app",
     "schema",
     "search",

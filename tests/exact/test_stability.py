@@ -169,3 +169,39 @@ def test_the_first_divergence_is_the_buckling_load():
     problem = beam([0, 0.4, 1], [1, 2, 1], [1, 0.5, 2], [1, 0.2, -0.3], ends)
     result, known = an.stability(problem), an.buckling(problem, 1e-9)
     assert result.first.load_factor == pytest.approx(known.load_factor, rel=1e-9)
+
+
+def beck_share(force, omega2):
+    """Return lambda - p dlambda/dp of Beck's column, by implicit derivatives in 30 digits."""
+    import mpmath
+
+    mpmath.mp.dps = 30
+
+    def D(N, square):
+        root = mpmath.sqrt(N * N / 4 + square)
+        a, b = mpmath.sqrt(N / 2 + root), mpmath.sqrt(root - N / 2)
+        both = mpmath.cos(a) * mpmath.cosh(b), mpmath.sin(a) * mpmath.sinh(b)
+        return 2 * square + N * N + 2 * square * both[0] + N * mpmath.sqrt(square) * both[1]
+
+    def share(N):
+        square = mpmath.findroot(lambda z: D(N, z), omega2)
+        by_load = mpmath.diff(D, (N, square), (1, 0)) / mpmath.diff(D, (N, square), (0, 1))
+        return square + N * by_load
+
+    return float(mpmath.findroot(share, force))
+
+
+def test_the_least_material_loss_lowers_the_flutter_load_to_half():
+    """Ziegler's paradox: 10.94 in the literature, whatever the loss if it is small."""
+    found = [
+        an.stability(column(loss_factor=[loss, loss])).damped.load_factor for loss in (1e-3, 2e-3)
+    ]
+    limit = beck_share(10.94, 29.0)
+    assert limit == pytest.approx(10.94, abs=0.005)
+    assert found[0] == pytest.approx(limit, rel=2e-6)
+    slope = (found[1] - found[0]) / (2e-3**2 - 1e-3**2)
+    assert found[0] - slope * 1e-3**2 == pytest.approx(limit, rel=3e-8)
+
+
+def test_without_dampers_nothing_is_told_of_them():
+    assert an.stability(column(share=0.0)).damped is None

@@ -16,7 +16,7 @@ from .printing import new_table, show_left_out, show_warnings
 
 if TYPE_CHECKING:
     from antinode.beam.beam import Beam
-    from antinode.stability.result import CriticalLoad, Stability
+    from antinode.stability.result import CriticalLoad, DampedLoss, Stability
 
 _CHANGES = {
     "lost": "lost",
@@ -36,6 +36,8 @@ def show_stability(out: Console, result: Stability, beam: Beam) -> None:
         out.print(table)
     else:
         out.print("stable, whatever the factor" if result.range[1] == float("inf") else "stable")
+    if result.damped is not None:
+        out.print(Text(_with_dampers(result.damped)))
     out.print(f"[dim]{_between(result)}[/dim]", highlight=False)
     show_warnings(out, result.warnings)
     show_left_out(out, not_modelled(beam))
@@ -51,6 +53,15 @@ def _cells(each: CriticalLoad) -> tuple[str, ...]:
         " with ".join(each.modes),
         _CHANGES[each.change],
         _PROOFS[each.certificate.kind],
+    )
+
+
+def _with_dampers(damped: DampedLoss) -> str:
+    at = f" at {damped.frequency_hz:.7g} Hz" if damped.frequency_hz else ""
+    proven = "" if damped.proven else ", not proven"
+    return (
+        f"With its dashpots and loss factors: {damped.mode}, {damped.kind}{at} from "
+        f"{damped.load_factor:.8g}{proven}."
     )
 
 

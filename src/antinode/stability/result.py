@@ -96,6 +96,46 @@ class CriticalLoad:
 
 
 @dataclass(frozen=True)
+class DampedLoss:
+    """Where stability is first lost with dampers.
+
+    Attributes
+    ----------
+    load_factor : float
+    bracket : tuple of float
+        On its two sides no mode grows, and one does, by more than the error of its growth.
+    frequency_hz : float
+        Of the mode there [Hz]; 0 where it does not oscillate.
+    mode : str
+        As it is named just beyond.
+    proven : bool
+        Whether the lists of modes at both ends of the bracket are proven complete.
+    """
+
+    load_factor: float
+    bracket: tuple[float, float]
+    frequency_hz: float
+    mode: str
+    proven: bool
+
+    @property
+    def kind(self) -> str:
+        """Flutter, or divergence."""
+        return "flutter" if self.frequency_hz else "divergence"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as plain numbers for JSON."""
+        return {
+            "kind": self.kind,
+            "load_factor": self.load_factor,
+            "bracket": list(self.bracket),
+            "frequency_hz": self.frequency_hz,
+            "modes": [self.mode],
+            "proven": self.proven,
+        }
+
+
+@dataclass(frozen=True)
 class Stability(StabilityMethods):
     """Every change of stability up to and including the first flutter, by rising factor.
 
@@ -115,6 +155,9 @@ class Stability(StabilityMethods):
     steps : int
         Factors at which all eigenvalues were enclosed.
     warnings : tuple of str
+    damped : DampedLoss or None
+        Where stability is first lost with the beam's dashpots and loss factors, which all else
+        leaves out; None without any, or where it is not lost.
     """
 
     name: str
@@ -124,6 +167,7 @@ class Stability(StabilityMethods):
     complete: Literal["counts", "followed"]
     steps: int
     warnings: tuple[str, ...] = ()
+    damped: DampedLoss | None = None
 
     @property
     def flutter(self) -> CriticalLoad | None:
@@ -143,6 +187,7 @@ class Stability(StabilityMethods):
             "range": [null(value) for value in self.range],
             "critical": [each.to_dict() for each in self.critical],
             "largest_axial_force_n": self.largest_force,
+            "damped": self.damped.to_dict() if self.damped else None,
             "between": {"kind": self.complete, "steps": self.steps},
             "warnings": list(self.warnings),
         }
@@ -156,4 +201,8 @@ class Stability(StabilityMethods):
             rows.append(
                 f"  {each.load_factor:<15.10g} {each.kind:<10} {names}{at}, {each.change}{proven}"
             )
-        return "\n".join(rows if self.critical else [*rows, "  stable"])
+        if not self.critical:
+            rows.append("  stable")
+        if self.damped is not None:
+            rows.append(f"  with dampers: {self.damped.load_factor:.10g}, {self.damped.kind}")
+        return "\n".join(rows)

@@ -7,6 +7,8 @@ closed in on, and made sharp (`.search`, `.sharpening`).
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from antinode.arguments import numbers, within
@@ -20,6 +22,7 @@ from antinode.modes.loading import greatest_in_shear
 from antinode.modes.solve import HasBeam
 
 from .counting import divergences
+from .damped import damped_loss
 from .result import Certificate, CriticalLoad, Stability
 from .search import changes, walk
 from .sharpening import sharpen
@@ -30,7 +33,8 @@ _FAR = 1e3  # times the first critical load
 _UNITS = 1e4  # times N L^2/EI = 1, where nothing loses stability
 _ELASTIC = 6  # modes that are watched
 _MOST_ELASTIC = 48
-_EVALUATIONS = 60
+EVALUATIONS = 60
+"""Of its chains, in which `modes.backends.for_one` weighs a beam."""
 _REFINEMENT = 2
 
 
@@ -40,6 +44,7 @@ def stability(
     largest: float | None = None,
     *,
     tolerance: float = 1e-9,
+    dampers: bool = True,
     backend: BackendName | None = None,
 ) -> Stability:
     """Find every change of stability along a factor on all axial forces, up to the first flutter.
@@ -53,6 +58,8 @@ def stability(
         that does.
     tolerance : float
         Largest relative error of a critical factor that is allowed to what varies inside segments.
+    dampers : bool
+        Whether to look as well where stability is lost with the beam's dashpots and loss factors.
     backend : {"auto", "numpy", "numba"}, optional
         What evaluates chains; by default numpy for a small beam.
 
@@ -77,15 +84,18 @@ def stability(
             "axial_force, an axial acceleration or forces along the beam"
         )
     segments = len(beam.chain(BENDING).length)
-    solver = choose(backend or for_one(segments, _EVALUATIONS))
-    if not any(beam.following()):
-        found = divergences(beam, most, tolerance, solver)
-        warnings = (*_without(found.unstable), *found.warnings)
-        force = _largest_force(beam)
-        return Stability(
-            beam.name, found.critical, (0.0, found.reach), force, "counts", 0, warnings
-        )
-    return _followed(beam, most, tolerance, solver)
+    solver = choose(backend or for_one(segments, EVALUATIONS))
+    along = _followed if any(beam.following()) else _counted
+    found = along(beam, most, tolerance, solver)
+    damped = damped_loss(beam, found) if dampers else None
+    return found if damped is None else replace(found, damped=damped)
+
+
+def _counted(beam: Beam, most: float | None, tolerance: float, solver: Backend) -> Stability:
+    found = divergences(beam, most, tolerance, solver)
+    warnings = (*_without(found.unstable), *found.warnings)
+    force = _largest_force(beam)
+    return Stability(beam.name, found.critical, (0.0, found.reach), force, "counts", 0, warnings)
 
 
 def _largest(value: float) -> float:

@@ -40,6 +40,12 @@ ResultFile = Annotated[
     Path | None,
     option(OUTPUT, "Write the result to a file: .json, or .csv (a table).", "-o", "--output"),
 ]
+PlotFile = Annotated[
+    Path | None,
+    option(
+        OUTPUT, "Draw frequencies and growth against the factor (root loci): .png, .svg or .pdf."
+    ),
+]
 
 
 def stability(
@@ -51,25 +57,28 @@ def stability(
     tolerance: Tolerance = 1e-9,
     json: Json = False,
     output: ResultFile = None,
+    plot: PlotFile = None,
 ) -> None:
     """Find where a beam or a vehicle's body loses stability: divergence (buckling) and flutter.
 
     A factor multiplies all axial forces, from 0 upwards; stiffness, mass and springs stay. Every
     change of stability up to and including the first flutter is told, of elastic modes and of rigid
-    rotations, with a bracket that is proven. Dashpots and loss factors are left out.
+    rotations, with a bracket that is proven. Dashpots and loss factors are left out of these; with
+    them the first loss of stability is told beside.
 
     - Example: **antinode stability beam.toml**
     - Example: **antinode stability beam.toml --set beam.ends.right_follower=0.5 --json**
-    - Example: **antinode stability case.toml --to 20 -o stability.csv**
+    - Example: **antinode stability case.toml --to 20 --plot loci.svg**
 
     Parameters
     ----------
     file
         A beam file, a table of stations, or a vehicle's case.
     """
-    from antinode.show.outcome import print_json, say_written
+    from antinode.show.outcome import check_plot, draw, print_json, say_written
     from antinode.show.writing import check_output
 
+    check_plot(plot)
     if output:
         check_output(output, (".json", ".csv"))
     beam = _beam_of(file, set_)
@@ -79,6 +88,11 @@ def stability(
     if output:
         _write(result, output)
         say_written(output)
+    if plot:
+        from antinode.show.stability_figures import plot_loci
+        from antinode.stability.loci import root_loci
+
+        draw(plot_loci(root_loci(beam, result)), plot)
     if json:
         print_json(result.to_dict())
         return
