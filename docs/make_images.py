@@ -30,7 +30,7 @@ from antinode import (
 from antinode.show.end_forces import plot_end_forces
 from antinode.show.figures import PALETTE, plot_case, plot_loads, plot_modes, save
 from antinode.show.response_figures import plot_response
-from antinode.show.stability_figures import plot_loci
+from antinode.show.stability import plot_loci
 from antinode.show.style import BODY, GREY, INK, WIDTH, styled
 from antinode.study.sensitivity.command import read_uncertain
 from antinode.study.sensitivity.command import tornado as plot_tornado

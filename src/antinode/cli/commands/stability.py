@@ -89,7 +89,7 @@ def stability(
         _write(result, output)
         say_written(output)
     if plot:
-        from antinode.show.stability_figures import plot_loci
+        from antinode.show.stability import plot_loci
         from antinode.stability.loci import root_loci
 
         draw(plot_loci(root_loci(beam, result)), plot)
@@ -97,7 +97,7 @@ def stability(
         print_json(result.to_dict())
         return
     from antinode.show.printing import console, show_beam
-    from antinode.show.stability_table import show_stability
+    from antinode.show.stability import show_stability
 
     out = console()
     show_beam(out, beam)
@@ -120,7 +120,7 @@ def _beam_of(file: Path, assignments: tuple[str, ...]) -> Beam:
 
 def _write(result: Stability, path: Path) -> None:
     """Write a result by the ending of its file."""
-    from antinode.show.stability_table import stability_csv
+    from antinode.show.stability import stability_csv
     from antinode.show.writing import to_json, write_text
 
     json = path.suffix.lower() == ".json"
