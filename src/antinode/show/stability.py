@@ -14,6 +14,7 @@ from antinode.modes.result import not_modelled
 from antinode.text import counted
 
 from .printing import new_table, show_left_out, show_warnings
+from .style import INK, PALETTE, WIDTH, styled, zero_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
