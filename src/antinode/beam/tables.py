@@ -115,8 +115,10 @@ class PointFeedbackTable(Frozen):
     x: Length = Field(description="station [m]")
     translational: Annotated[float, Unit("N/m")] = Field(0.0, description="force of Y [N/m]")
     force_of_turn: Force = Field(0.0, description="force of psi [N]")
-    moment_of_displacement: Force = Field(0.0, description="moment of Y [N m/m]")
-    rotational: Annotated[float, Unit("N m/rad")] = Field(0.0, description="moment of psi [N m]")
+    moment_of_displacement: Force = Field(0.0, description="moment of Y [N]")
+    rotational: Annotated[float, Unit("N m/rad")] = Field(
+        0.0, description="moment of psi [N m/rad]"
+    )
     translational_damping: Annotated[float, Unit("N s/m")] = Field(
         0.0, description="force of the rate of Y [N s/m]"
     )
@@ -127,7 +129,7 @@ class PointFeedbackTable(Frozen):
         0.0, description="moment of the rate of Y [N s]"
     )
     rotational_damping: Annotated[float, Unit("N m s/rad")] = Field(
-        0.0, description="moment of the rate of psi [N m s]"
+        0.0, description="moment of the rate of psi [N m s/rad]"
     )
 
     @model_validator(mode="after")

@@ -87,7 +87,7 @@ ON_THE_LINE = [
     ("modes case.toml --set condition.cavitator_angle=10", "did you mean '10 deg'?"),
     ("modes case.toml --set condition.speed=80000", "check the units"),
     ("sweep case.toml", "in a study file with case = 'case.toml'"),
-    ("sweep t.toml", "antinode beam t.toml"),
+    ("sweep t.toml", "name it in a study file with case = 't.toml'"),
     ("sweep s.toml -o s.xlsx", ".zarr"),
     ("sensitivity case.toml", "--uncertain speed=2%"),
     ("sensitivity case.toml --uncertain burn_fraction=10%", "the case has 0 there"),
