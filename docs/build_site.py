@@ -12,12 +12,15 @@ from pathlib import Path
 
 import antinode
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from run_notebooks import as_page, notebooks
+
 ROOT = Path(__file__).resolve().parents[1]
 DEFAULT = ROOT / "build" / "site"
 LINK = re.compile(r"\]\(([^)\s#]+)(#[^)\s]*)?\)")
 
 CONTENTS = {
-    "Start": ("../README", "tutorial", "gallery"),
+    "Start": ("../README", "tutorial", "gallery", "notebooks/*"),
     "How to": ("howto", "howto/*"),
     "Know": ("conventions", "glossary", "theory/*"),
     "Trust": ("validation", "../validation/*", "paper", "../benchmarks/*"),
@@ -59,6 +62,9 @@ def gather(folder: Path) -> None:
             file = (ROOT / page).parent / target
             if not re.match(r"[a-z]+:", target) and file.is_file():
                 copy(file.resolve().relative_to(ROOT), folder)
+    (folder / "docs" / "notebooks").mkdir(parents=True, exist_ok=True)
+    for notebook in notebooks():
+        as_page(notebook, folder / "docs" / "notebooks")
     add_contents(folder)
 
 

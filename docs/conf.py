@@ -5,9 +5,11 @@ reader's own, and KaTeX, which draws formulas, lies in `_static/katex` with its 
 scripts are off a formula stands as it was written.
 """
 
+import re
 from html import escape
 
 from docutils import nodes
+from pydantic import BaseModel
 from pygments.lexers.special import TextLexer
 from sphinx.highlighting import lexers
 
@@ -37,6 +39,8 @@ napoleon_use_param = False
 napoleon_use_rtype = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
+_NAMES = "Array Integers Complex Numbers AxesArray ArrayLike npt.ArrayLike FamilyName Interpolation"
+autodoc_type_aliases = {name: name.rpartition(".")[2] for name in _NAMES.split()}
 autodoc_default_options = {"members": True}
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 88
@@ -69,6 +73,17 @@ def types_as_words(app, what, name, obj, options, lines):
             lines[k] = f":ivar {head}: *{types[head]}* – {text.strip()}".rstrip(" –")
 
 
+def plain_signature(app, what, name, obj, options, signature, returned):
+    """Show types by their last names; of a table of a file its keys, whose types the fields say."""
+    if what == "class" and issubclass(obj, BaseModel):
+        keys = (f.alias or key for key, f in obj.model_fields.items())
+        return f"(*, {', '.join(keys)})", None
+    plain = [
+        text and re.sub(r"~?\b(?:\w+\.)+(?=[A-Za-z])", "", text) for text in (signature, returned)
+    ]
+    return tuple(plain)
+
+
 def formula(translator, node):
     """Write a formula for KaTeX, as it is."""
     block = isinstance(node, nodes.math_block)
@@ -80,4 +95,5 @@ def formula(translator, node):
 def setup(app):
     """Connect to Sphinx, after napoleon."""
     app.add_html_math_renderer("katex", (formula, None), (formula, None))
+    app.connect("autodoc-process-signature", plain_signature)
     app.connect("autodoc-process-docstring", types_as_words, priority=900)

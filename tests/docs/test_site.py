@@ -72,3 +72,10 @@ def test_every_document_and_the_interface_have_a_page(site):
     for name in ("solve_modes", "load_case", "Beam", "sweep"):
         assert f"an.{name}" in api
     assert (folder / "index.html").is_file()
+
+
+def test_pages_of_the_interface_name_types_as_people_do(site):
+    _, folder = site
+    for page in sorted((folder / "api").glob("*.html")):
+        text = re.sub("<[^>]*>", "", page.read_text(encoding="utf-8"))
+        assert not re.search(r"ndarray\[tuple|typing\.|_NestedSequence", text), page.name

@@ -6,7 +6,7 @@ With the receptances G of the `base` chain between the displacements where somet
 
 has the eigenvalues s for zeros, and those of the base chain, s^2 = -lambda_k, for poles. In the
 modes of the base chain ``G_ij = sum_k y_ki y_kj / (m_k (lambda_k - lambda))``, so that with
-``S_i = sum_k y_ki^2 / (m_k |lambda_k - lambda|^2) = Im G_ii / Im lambda`` by Cauchy and Schwarz
+``S_i = sum_k y_ki^2 / (m_k |lambda_k - lambda|^2) = Im G_ii / Im lambda`` by Cauchy and Schwarz::
 
     |G_ij(lambda + d) - G_ij(lambda)| <= sqrt(S_i S_j) |d| / (1 - |d|/reach),
 
