@@ -15,7 +15,7 @@ import numpy.typing as npt
 from antinode.arrays import Array, Integers
 from antinode.beam.file import BeamFile
 from antinode.modes.hertz import error_hz, growth_rate, hertz
-from antinode.study.design.file import Study
+from antinode.study.design.file import MARGIN_OUTPUTS, Study
 from antinode.study.design.points import Points
 from antinode.vehicle.refusals import OUT_OF_RANGE
 
@@ -51,6 +51,10 @@ def solve_values(points: Points, values: Array) -> Arrays:
     out: Arrays = {v.name: cases.values[:, k] for k, v in enumerate(points.variables)}
     out["reason"] = reason.astype(np.int16)
     out["warned"] = bits.astype(type_of_bits(study))
+    if any(name in MARGIN_OUTPUTS for name in study.outputs):
+        from .margins import margins
+
+        every |= margins(cases, reason)
     out |= {name: every[name] for name in study.outputs}
     if points.tracked:
         out["shape"] = shapes

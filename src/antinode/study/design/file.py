@@ -49,7 +49,20 @@ LOAD_OUTPUTS = {
     "beta": ("rad/s^2", "angular acceleration, nose-up"),
 }
 """Unit and meaning of the outputs that have one number a case."""
-OF_BEAMS = ("mass",)
+MARGIN_OUTPUTS = {
+    "flutter_factor": (
+        "1",
+        "factor on all axial forces at which flutter begins; NaN where none does. Solved a case at "
+        "a time: a second or so each",
+    ),
+    "divergence_factor": (
+        "1",
+        "factor on all axial forces at which a mode first diverges, rotations included; NaN where "
+        "none does before flutter. Solved with flutter_factor",
+    ),
+}
+"""The same, of stability: without dashpots and loss factors."""
+OF_BEAMS = ("mass", *MARGIN_OUTPUTS)
 """Those of them that a beam has."""
 OF_BEAMS_ALONE = ("damping_ratio",)
 """Those of modes that a vehicle has not."""
@@ -83,6 +96,8 @@ OutputName = Literal[
     "omega2",
     "growth_rate_per_s",
     "damping_ratio",
+    "flutter_factor",
+    "divergence_factor",
     "sigma",
     "cavity_length",
     "cavity_diameter",

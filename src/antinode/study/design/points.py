@@ -19,7 +19,15 @@ from antinode.beam.file import BeamFile
 from antinode.errors import InputError
 from antinode.text import nearest, short
 
-from .file import LOAD_OUTPUTS, MODE_OUTPUTS, MOST_CASES, OF_BEAMS, OF_BEAMS_ALONE, Study
+from .file import (
+    LOAD_OUTPUTS,
+    MARGIN_OUTPUTS,
+    MODE_OUTPUTS,
+    MOST_CASES,
+    OF_BEAMS,
+    OF_BEAMS_ALONE,
+    Study,
+)
 from .samples import SobolSamples, latin_column, random_samples
 from .variables import Variable, variables_of
 
@@ -277,5 +285,6 @@ RESERVED = (
     *("tracked_mode", "tracked_mac", "tracked_doubtful", "tracked_frequency_hz", "coordinates"),
     *MODE_OUTPUTS,
     *LOAD_OUTPUTS,
+    *MARGIN_OUTPUTS,
 )
 """Names that no input can have: those of the result."""

@@ -15,7 +15,7 @@ from antinode.beam.file import BeamFile
 from antinode.study.cases.chunks import mode_names
 from antinode.study.cases.reasons import WHY, failed
 from antinode.study.cases.warned import counted_warnings, messages, type_of_bits
-from antinode.study.design.file import LOAD_OUTPUTS, MODE_OUTPUTS, Study
+from antinode.study.design.file import LOAD_OUTPUTS, MARGIN_OUTPUTS, MODE_OUTPUTS, Study
 from antinode.study.design.points import GROWING, Points
 from antinode.vehicle.case import Case
 from antinode.version import __version__
@@ -73,7 +73,7 @@ def outputs_of(points: Points) -> dict[str, Output]:
     found["warned"] = Output(("case",), (n,), type_of_bits(study), _warned_attrs(study))
     for name in study.outputs:
         each = name in MODE_OUTPUTS
-        unit, text = (MODE_OUTPUTS if each else LOAD_OUTPUTS)[name]
+        unit, text = (MODE_OUTPUTS | LOAD_OUTPUTS | MARGIN_OUTPUTS)[name]
         attrs = {"units": unit, "long_name": text}
         dims, shape = (("case", "mode"), (n, modes)) if each else (("case",), (n,))
         found[name] = Output(dims, shape, "float64", attrs)
