@@ -12,6 +12,7 @@ from antinode.arrays import Array, Integers
 from antinode.beam.file import BeamFile
 from antinode.beam.plausible import OF_MANY
 from antinode.modes.warnings import (
+    FLUTTERS,
     LOWEST_DIVERGES,
     MODEL_LIMIT,
     PAST_BUCKLING,
@@ -23,10 +24,10 @@ from antinode.modes.warnings import (
 )
 from antinode.study.design.file import Study
 
+from . import reasons
 from .beam_warnings import beam_messages
 from .beams import load_messages
 from .bending import Eigenvalues
-from .reasons import failed
 
 _OF_MODES = (
     f"elastic modes with omega^2 < 0: {PAST_BUCKLING}",
@@ -34,6 +35,7 @@ _OF_MODES = (
     LOWEST_DIVERGES,
     f"some modes: {SHEAR_LOWERS}",
     f"some modes: {SHEAR_BUCKLES}",
+    f"some modes: {FLUTTERS}",
 )
 
 
@@ -75,11 +77,12 @@ def warned(found: Eigenvalues, model_error: Array, doubts: npt.NDArray[np.bool_]
             found.lowest_diverges & ~(found.net_force > 0),
             np.any(np.abs(model_error) > MODEL_LIMIT, axis=1),
             np.any(shear_buckles(model_error), axis=1),
+            found.reason == reasons.FLUTTERS,
         )
     bits = np.zeros(len(found.reason), dtype=np.int64)
     for k, each in enumerate((*told, *doubts)):
         bits |= each * np.int64(1 << min(k, _LAST))
-    return np.where(failed(found.reason), 0, bits)
+    return np.where(reasons.failed(found.reason), 0, bits)
 
 
 def counted_warnings(

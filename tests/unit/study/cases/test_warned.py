@@ -168,3 +168,13 @@ def test_json_terminal_csv_and_netcdf_say_them(tmp_path):
         assert json.loads(found.attrs["warnings"]) == data["warnings"]
     run("sweep", file, "-o", tmp_path / "s.csv")
     assert "warned" in (tmp_path / "s.csv").read_text().split("\n")[0]
+
+
+def test_flutter_is_not_lost_among_cases(case):
+    """Thrust that follows makes bending 1 and 2 meet: their frequency alone says nothing of it."""
+    follows = case.model_copy(update={"model": an.Model(end_force="follows_body")})
+    text = 'inputs = [{ key = "thrust", values = [5e4, 1.1e6, 1.4e6] }]\nsolve.modes = 3'
+    data = an.sweep(study(follows, text))
+    (told,) = [w for w in data.attrs["warnings"] if "flutter, by end forces" in w["message"]]
+    assert (told["count"], told["first_case"]) == (2, 1)
+    assert np.all(np.isfinite(data.frequency_hz))
