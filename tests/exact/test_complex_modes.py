@@ -152,6 +152,68 @@ def test_growth_past_flutter():
     assert damped.certificate["kind"] == "winding"
 
 
+def lossy(eta, N=0.0, ends=CLAMPED, **columns):
+    return uniform(ends, N, loss_factor=np.full(3, eta), **columns)
+
+
+@pytest.mark.parametrize("eta", [0.001, 0.02, 0.2])
+def test_a_loss_factor_is_a_complex_stiffness(eta):
+    """Without N and springs ``s = i omega sqrt(1 + i eta)``."""
+    result = solve(lossy(eta), 4, damping="complex")
+    plain = solve(lossy(eta), 4)
+    omega = np.sqrt([m.omega2 for m in plain.modes])
+    np.testing.assert_allclose(values(result), 1j * omega * np.sqrt(1 + 1j * eta), rtol=1e-9)
+    assert result.certificate["kind"] == "winding"
+    assert 0 < result.certificate["record"]["loss"] < 1
+
+
+def test_loss_beside_a_dashpot_under_axial_force():
+    beam = lossy(0.05, 1.5).with_attachments(an.Dashpot(1.0, translational=0.7))
+    result = solve(beam, 4)
+    assert result.certificate["kind"] == "winding"
+    for mode in result.modes:
+        s = mode.eigenvalue_per_s
+        exact = refined(s, N=1.5, EI=mpmath.mpc(1, 0.05), right=lambda s: [[0.7 * s, 0], [0, 0]])
+        assert abs(s - exact) <= mode.error_per_s <= 1e-9 * abs(s)
+
+
+def test_a_bar_that_loses_energy():
+    one = np.ones(2)
+    beam = an.Beam.from_stations([0, 1], one, one, one, ends=CLAMPED, loss_factor=0.1 * one)
+    result = an.solve_modes(beam, 3, families=["longitudinal"], backend="numpy", damping="complex")
+    exact = 1j * np.pi * (np.arange(3) + 0.5) * np.sqrt(1 + 0.1j)
+    np.testing.assert_allclose(values(result), exact, rtol=1e-9)
+    assert result.certificate["kind"] == "winding"
+
+
+def test_too_much_loss_is_not_proven_and_says_so():
+    result = solve(lossy(3.0), 3, damping="complex")
+    assert result.certificate["kind"] == "none"
+    assert any("not proven" in w for w in result.warnings)
+
+
+def test_roots_of_the_circle_next_to_its_edge():
+    """However the region lies, what is inside is what the elements find there."""
+    beam = uniform().with_attachments(an.Dashpot(1.0, translational=30.0, rotational=2.0))
+    for modes in range(1, 8):
+        result = solve(beam, modes)
+        record = result.certificate["record"]
+        assert result.certificate["kind"] == "winding"
+        assert record["found"] == record["eigenvalues"]
+
+
+@pytest.mark.parametrize("off", [1e-3, 1e-6, 1e-9, 0.0])
+def test_a_pair_next_to_its_coalescence(off):
+    """Beck's column at P = 20.0509536190 (1 + off): two eigenvalues all but meet, or do."""
+    P = 20.0509536190 * (1 - off)
+    result = solve(uniform(an.Ends(left="clamped", right_follower=1.0), N=P), 2, damping="complex")
+    assert result.certificate["kind"] == "winding"
+    for mode in result.modes:
+        s = mode.eigenvalue_per_s
+        exact = refined(s, N=P, right=lambda s: [[0, P], [0, 0]])
+        assert abs(s - exact) <= mode.error_per_s <= 1e-4 * abs(s)
+
+
 def test_left_eigenvectors_give_the_change_of_an_eigenvalue():
     """A small dashpot and a small feedback: ``ds = -w^T (s dC + dK) v``."""
     beam = uniform(an.Ends(left="clamped", right_follower=1.0), N=5.0).with_attachments(

@@ -125,7 +125,8 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
     ]
     if any(m.kind == "divergent" and not m.number for m in modes):
         warnings.append(rotation_warning(beam))
-    neutral = [m.name for m in modes if 0 <= m.omega2 < m.error_omega2]
+    near = [m for m in modes if 0 <= m.omega2 < m.error_omega2]
+    neutral = [m.name for m in near if m.kind != "overdamped"]
     if neutral:
         warnings.append(f"{', '.join(neutral)}: {NEUTRAL}")
     shapeless = [m.name for m in modes if math.isnan(m.modal_mass)]

@@ -8,7 +8,7 @@ around every eigenvalue, say so (`riccati.damped`).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from antinode.modes.refinement import layer_length, varying_segments
 from antinode.riccati.chain import Chain
 from antinode.riccati.convergence import extrapolate
 from antinode.riccati.damped.chain import Damped
+from antinode.riccati.damped.loss import with_loss
 from antinode.riccati.damped.roots import ComplexEigenvalue, ComplexRoots, Finder
 from antinode.riccati.roots import CountingError, Eigenvalue
 
@@ -61,6 +62,7 @@ def solve_damped(
         Whether the beam's loss factors count.
     """
     lossy = lossy and beam.loss_factor is not None and bool(np.any(beam.loss_factor))
+    scales = beam.is_unloaded or not beam.has_shear or beam.shear_form == "haringx"
     levels: list[tuple[ComplexRoots, Chain]] = []
     refinement = 1
     while True:
@@ -68,7 +70,7 @@ def solve_damped(
         columns = make_chain(beam, family, refinement, 0.0).columns if lossy else None
         damped = Damped(chain, columns)
         rest = at_rest(beam, damped)
-        roots = _roots(damped, rest, modes, backend)
+        roots = _roots(damped, rest, modes, backend, scales)
         levels.append((roots, chain))
         error, met = _errors(beam, levels, tolerance)
         exhausted = 2 * len(chain.length) > _MOST_SEGMENTS
@@ -91,15 +93,23 @@ def solve_damped(
     )
 
 
-def _roots(damped: Damped, rest: AtRest, modes: int, backend: Backend) -> ComplexRoots:
+def _roots(
+    damped: Damped, rest: AtRest, modes: int, backend: Backend, scales: bool
+) -> ComplexRoots:
     """Return the eigenvalues of one chain."""
-    base = damped.base
+    base, without = damped.base, replace(damped, columns=None)
 
     def of_base(number: int) -> list[Eigenvalue]:
         return backend.find_eigenvalues(base, number, zeros=rest.base_zeros)
 
     try:
-        return Finder(damped, of_base, rest.base_zeros, rest.multiplicity).find(modes)
+        finder = Finder(without, of_base, rest.base_zeros, rest.multiplicity)
+        found = finder.find(modes)
+        return (
+            found
+            if damped.columns is None
+            else with_loss(damped, finder.ratio, found, scales=scales)
+        )
     except (CountingError, FloatingPointError) as error:
         raise ComputationError(
             f"the {base.law.name} eigenvalues could not be enclosed: {error}; check stiffness, "
@@ -151,5 +161,7 @@ def certificate_dict(roots: ComplexRoots) -> dict[str, Any]:
         "samples": circle.samples,
         "margin": circle.margin,
     }
+    if circle.loss:
+        record["loss"] = circle.loss
     region = {"abs_s_below": circle.radius}
     return {"kind": "winding" if roots.proven else "none", "region": region, "record": record}

@@ -48,7 +48,7 @@ def products(damped: Damped, chain: Chain, s: Numbers, right: Numbers, left: Num
     """
     omega2: Numbers = -s * s
     total = np.zeros((2, len(Squares._fields), len(chain.length), len(s)), complex)
-    phase = largest_wave_number(chain, float(np.max(np.abs(omega2)))) * chain.length
+    phase = largest_wave_number(damped.chain, float(np.max(np.abs(omega2)))) * chain.length
     for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
         v = propagate(chain, right[:-1], omega2, point * chain.length)
         w = propagate(chain, left[:-1], omega2, point * chain.length)

@@ -49,6 +49,10 @@ class RatioSamples(NamedTuple):
     """Of K + s C, moduli, scaled."""
     damping: Array
     """Of C, moduli, scaled."""
+    acting: Complex
+    """(K + s C) times the inverse, scaled."""
+    size: Array
+    """The roots of S, shape (k, r)."""
 
     def spread(self, distance: Array) -> Array:
         """Return how far the function may be from its values within a distance of each."""
@@ -127,6 +131,43 @@ class Ratio:
         G = np.stack([z[row, :, i] for row, i in zip(rows, acting.freedom, strict=True)], axis=1)
         return np.asarray((G + np.swapaxes(G, -1, -2)) / 2)
 
+    def inverse_norm(self, s: Complex, distance: float, sigma: float) -> Array:
+        """Bound the inverse of A(s) within a distance of each place, in the energy of P.
+
+        ``|| P^(1/2) A^-1 P^(1/2) ||`` with ``P = K_base + sigma M``; infinite where there is none.
+        """
+        here, omega2 = self.samples(s), -s * s
+        moved = distance * (2 * np.abs(s) + distance)
+        base = _largest_share(omega2, self.poles, sigma, moved)
+        r = here.matrix.shape[-1]
+        if not r:
+            return base
+        energy = np.sqrt(self._energies(omega2, here.reach, sigma)) / here.size
+        energy = energy / (1 - np.minimum(moved / here.reach, 1))[:, None]
+        with np.errstate(all="ignore"):
+            tau = np.where(moved < here.reach, moved / (1 - moved / here.reach), np.inf)
+            C, t = here.damping, distance
+            Z = here.stiffness + t * C
+            change = tau[:, None, None] * np.sum(Z, axis=-2, keepdims=True)
+            change = change + t * here.receptance @ C
+            X = here.inverse @ change
+            x = np.sum(X, axis=-1).max(axis=-1)
+            one = np.eye(r)
+            X = np.where((x < 1)[:, None, None], X, 0.0)
+            inverse = np.linalg.inv(one - X) @ here.inverse
+            acting = np.abs(here.acting) + (t * C + np.abs(here.acting) @ change) @ inverse
+            norm = np.linalg.norm(acting * energy[:, :, None] * energy[:, None, :], axis=(-2, -1))
+        return np.where((x < 1) & np.isfinite(norm), base + norm, np.inf)
+
+    def _energies(self, omega2: Complex, reach: Array, sigma: float) -> Array:
+        """Return T of every displacement, from beside the axis where it is near, (k, r)."""
+        near = np.abs(omega2.imag) < _BESIDE * reach
+        sign = np.where(omega2.imag < 0, -1.0, 1.0)
+        at = np.where(near, omega2 + 1j * sign * _BESIDE * reach, omega2)
+        G = np.diagonal(self.receptances(at), axis1=-2, axis2=-1)
+        T = ((at[:, None] * G).imag + sigma * G.imag) / at.imag[:, None]
+        return np.asarray(np.maximum(T, 0) * (1 + _BESIDE) ** 2)
+
     def samples(self, s: Complex) -> RatioSamples:
         """Return g, bounded."""
         omega2, acting = -s * s, self.damped.acting
@@ -150,8 +191,30 @@ class Ratio:
             value = np.linalg.det(A)
         C = np.abs(acting.C) * across
         return RatioSamples(
-            s, value, reach, np.abs(A), np.abs(inverse), np.abs(scaled), np.abs(Z), C
+            s,
+            value,
+            reach,
+            np.abs(A),
+            np.abs(inverse),
+            np.abs(scaled),
+            np.abs(Z),
+            C,
+            Z @ inverse,
+            size,
         )
+
+
+def _largest_share(omega2: Complex, poles: Array, sigma: float, moved: Array) -> Array:
+    """Return the largest ``(l_k + sigma)/(|l_k - l| - d)`` of all l_k, beyond the last too."""
+    above = omega2.real + omega2.imag**2 / np.maximum(omega2.real + sigma, 1e-300)
+    beyond = np.maximum(np.where(omega2.real + sigma > 0, above, 0.0), poles[-1])
+    known = np.broadcast_to(poles, (len(omega2), len(poles)))
+    places = np.concatenate([known, beyond[:, None]], axis=1)
+    gap = np.abs(places - omega2[:, None]) - moved[:, None]
+    with np.errstate(all="ignore"):
+        share = np.where(gap > 0, np.maximum(places + sigma, 0.0) / gap, np.inf)
+    far = 1 / (1 - np.minimum(moved / np.maximum(poles[-1], 1e-300), 1 - 1e-12))
+    return np.asarray(np.maximum(np.max(share, axis=1), far))
 
 
 def _moved(matrix: Array, change: Array, axis: int) -> Array:

@@ -32,10 +32,23 @@ _GAPS = 8  # above those wanted in which the circle may stand
 _SHARES = 0.5, 0.35, 0.65  # of a gap where it crosses the axis
 _MOST = 1500  # samples on half a circle
 _WIDTH = 1e-11  # of a circle around an eigenvalue
-_TRIES = ((1, 16), (1, 64), (1, 256), (10, 64), (1e2, 256), (1e3, 256), (1e4, 256), (1e5, 256))
+_TRIES = (
+    (1, 16),
+    (1, 64),
+    (1, 256),
+    (10, 64),
+    (1e2, 256),
+    (1e3, 256),
+    (1e4, 256),
+    (1e5, 256),
+    (1e6, 256),
+)
 """Circles about an eigenvalue: over the first radius, and with how many corners."""
 _DISC = 0.2  # of the distance to the next pole of g: where its tangent is bounded
 _STEP = 1e-4  # of that disc, between places that tell the slope
+_NOISE = 10.0  # times what is seen of rounding
+_WIDE = 1e-2  # the same step for curvature
+_PAIRS = 1e-11 * 10 ** np.arange(0, 8.5, 0.5)  # of s: circles about two that all but meet
 _TANGENTS = 1.0, 30.0, 0.1  # of the first radius, in which that is tried
 _APART = 1e-6  # relative distance of eigenvalues that starts alone may tell apart
 _ROUNDS = 6
@@ -81,6 +94,8 @@ class Circle:
         Least share of g that the bounds between samples leave.
     at_zero : int
         Eigenvalues s = 0.
+    loss : float
+        With loss factors what must be below 1 for them to leave the number as it is.
     """
 
     radius: float
@@ -89,6 +104,7 @@ class Circle:
     samples: int
     margin: float
     at_zero: int
+    loss: float = 0.0
 
     @property
     def number(self) -> int:
@@ -102,10 +118,14 @@ class ComplexRoots:
 
     eigenvalues: list[ComplexEigenvalue]
     circle: Circle
+    counted: int | None = None
+    """With loss: how many were found in all of the circle."""
 
     @property
     def found(self) -> int:
         """How many were found, s = 0 and conjugates counted."""
+        if self.counted is not None:
+            return self.counted
         return self.circle.at_zero + sum(2 if v.s.imag else 1 for v in self.eigenvalues)
 
     @property
@@ -177,7 +197,7 @@ class Finder:
         """Count the turns of g along half a circle, by chords between points of it."""
         places = radius * np.exp(1j * self._angles)
         places[0], places[-1] = radius, -radius
-        path = follow(self._ratio.samples, places, _MOST)
+        path = follow(self.ratio.samples, places, _MOST)
         turns = path.turn / math.pi
         number = round(turns) if math.isfinite(turns) else 0
         whole = math.isfinite(turns) and abs(turns - number) < 1e-6
@@ -187,7 +207,8 @@ class Finder:
         return circle, path
 
     @property
-    def _ratio(self) -> Ratio:
+    def ratio(self) -> Ratio:
+        """G of the chain, with the poles that are known."""
         return Ratio(self.damped, self.poles)
 
     # --- where ------------------------------------------------------------------------------------
@@ -262,6 +283,12 @@ class Finder:
         proven, outer = self._holds_one(s, radius)
         members = np.ones(len(s), int)
         everyone = np.concatenate([s, s[s.imag > 0].conj()])
+        for k in np.flatnonzero(~proven):
+            other = everyone[np.argsort(np.abs(everyone - s[k]))[1:2]]
+            radius_of_two = self._holds_two(complex(np.mean([s[k], *other])))
+            if len(other) and abs(other[0] - s[k]) / 2 < radius_of_two < np.inf:
+                proven[k], members[k] = True, 2
+                outer[k] = radius_of_two + abs(other[0] - s[k]) / 2
         for growth, corners in _TRIES:
             open_ = np.flatnonzero(~proven)
             if not len(open_):
@@ -281,30 +308,64 @@ class Finder:
 
         Returns also the radii for which it does.
         """
-        here = self._ratio.samples(s)
+        here = self.ratio.samples(s)
         disc = _DISC * here.reach / (2 * np.abs(s))
         step = _STEP * disc
-        there = self._ratio.samples(np.concatenate([s + step, s - step])).value
+        there = self.ratio.samples(np.concatenate([s + step, s - step])).value
         proven, used = np.zeros(len(s), bool), radius.copy()
+        noise = self._noise(s)
         with np.errstate(all="ignore"):
             slope = np.abs(there[: len(s)] - there[len(s) :]) / (2 * step)
             slope = slope - here.spread(disc) / disc * _STEP**2 / (1 - _STEP**2)
             for growth in _TANGENTS:
                 trial = growth * radius
-                off = np.abs(here.value) + here.remainder(trial, disc)
+                off = np.abs(here.value) + noise + here.remainder(trial, disc)
                 good = ~proven & (off < 0.5 * slope * trial) & (trial < disc)
                 proven[good], used[good] = True, trial[good]
         return proven, used
+
+    def _noise(self, s: Complex) -> Array:
+        """Estimate how far rounding moves g: by what it leaves of straight lines very near."""
+        steps = np.array([-3, -2, -1, 0, 1, 2, 3])
+        places = s[:, None] * (1 + 1e-13 * steps)
+        value = self.ratio.samples(places.ravel()).value.reshape(places.shape)
+        slope = value @ steps / np.sum(steps**2)
+        rest = value - np.mean(value, axis=1, keepdims=True) - slope[:, None] * steps
+        return np.asarray(_NOISE * np.max(np.abs(rest), axis=1) + 0.1 * np.abs(slope))
+
+    def _holds_two(self, centre: complex) -> float:
+        """Return the least radius within which the parabola of g decides that two zeros are near.
+
+        Infinite where there is none.
+        """
+        c = np.array([centre])
+        here = self.ratio.samples(c)
+        disc = _DISC * here.reach / (2 * np.abs(c))
+        h, small = _WIDE * disc, _STEP * disc
+        there = self.ratio.samples(np.concatenate([c + h, c - h, c + small, c - small])).value
+        radii, noise = _PAIRS * abs(centre), self._noise(c)
+        x = np.minimum(radii / disc, 1 - 1e-9)
+        with np.errstate(all="ignore"):
+            most = here.spread(disc)
+            error = most / disc**2 * _WIDE**2 / (1 - _WIDE**2)
+            slope = np.abs(there[2] - there[3]) / (2 * small) + noise / small
+            slope = slope + most / disc * _STEP**2 / (1 - _STEP**2)
+            curvature = np.abs(there[0] + there[1] - 2 * here.value) / (2 * h * h)
+            curvature = curvature - error - 4 * noise / h**2
+            off = np.abs(here.value) + noise + slope * radii + most * x**3 / (1 - x)
+            good = np.flatnonzero(off < 0.5 * curvature * radii**2)
+        return float(radii[good[0]]) if len(good) else math.inf
 
     def _counted(self, centre: Complex, radius: Array, corners: int) -> tuple[Array, Array]:
         """Return the zeros of D in polygons about some places, and whether that is proven."""
         turn = np.exp(2j * math.pi * (np.arange(corners) + 0.5) / corners)
         outer = radius / math.cos(math.pi / corners)
         places = centre[:, None] + outer[:, None] * turn
-        samples = self._ratio.samples(places.ravel())
+        samples = self.ratio.samples(places.ravel())
         half = np.repeat(outer * math.sin(math.pi / corners), corners)
         with np.errstate(all="ignore"):
-            margin = 1 - samples.spread(half) / np.maximum(np.abs(samples.value), 1e-300)
+            off = samples.spread(half) + np.repeat(self._noise(centre), corners)
+            margin = 1 - off / np.maximum(np.abs(samples.value), 1e-300)
         value = samples.value.reshape(places.shape)
         turns = np.sum(np.angle(np.roll(value, -1, axis=1) / value), axis=1) / (2 * math.pi)
         of_base = np.sqrt(-self.poles + 0j)
