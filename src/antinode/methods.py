@@ -78,6 +78,7 @@ class SolvedMethods:
             largest: float | None = None,
             *,
             tolerance: float = 1e-9,
+            dampers: bool = True,
             backend: BackendName | None = None,
         ) -> Stability: ...
 
