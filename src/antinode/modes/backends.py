@@ -14,6 +14,8 @@ from antinode.arrays import Array, Integers
 from antinode.errors import ComputationError
 from antinode.riccati.chain import Chain, Evaluation
 from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
+from antinode.riccati.forced import Lanes, Loads, Sides
+from antinode.riccati.laws import Columns
 from antinode.riccati.roots import Eigenvalue, FollowingRoots
 from antinode.riccati.shapes import Energies
 
@@ -84,6 +86,12 @@ class Backend(Protocol):
 
     def mode_energies(self, chain: Chain, states: Array, omega2: Array, /) -> Energies:
         """Return modal mass and stiffness of modes."""
+        ...
+
+    def forced_states(
+        self, chain: Chain, columns: Columns, lanes: Lanes, loads: Loads, wanted: Integers, /
+    ) -> Sides:
+        """Return the states of a driven chain on either side of some nodes."""
         ...
 
 

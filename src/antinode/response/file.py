@@ -18,6 +18,7 @@ from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import naming, read_overridden
 from antinode.inputs.units import Frozen, Length, Number, Unit
+from antinode.modes.backends import BackendName
 
 from .damping import Damping, Rayleigh
 from .quantities import Base, Direction, Drive, Force, Output, QuantityName, Side
@@ -300,6 +301,8 @@ class Problem(NamedTuple):
     beam: Beam
     folder: Path
     where: str
+    backend: BackendName = "auto"
+    """What carries the states along the beam."""
 
     @property
     def title(self) -> str:

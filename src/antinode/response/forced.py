@@ -17,9 +17,10 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.beam.representation import make_chain
 from antinode.errors import ComputationError
+from antinode.modes.backends import BackendName, choose
 from antinode.modes.refinement import layer_length, varying_segments
 from antinode.riccati.convergence import extrapolate
-from antinode.riccati.forced import Lanes, Loads, Sides, forced_states, unit_jump
+from antinode.riccati.forced import Lanes, Loads, Sides, unit_jump
 from antinode.riccati.points import Point
 
 from .damping import Damping
@@ -43,6 +44,7 @@ class Forced:
     damping : Damping
     refinement : int
         As `Beam.chain` has it.
+    backend : {"auto", "numpy", "numba"}
     """
 
     def __init__(
@@ -53,16 +55,21 @@ class Forced:
         outputs: tuple[Output, ...],
         damping: Damping,
         refinement: int = 1,
+        backend: BackendName = "auto",
     ) -> None:
+        self.backend = choose(backend)
         self.chain, self.damping = beam.chain(family, refinement), damping
         self.drives, self.outputs, self.origin = drives, outputs, float(beam.x[0])
+        self._nodes: dict[float, int] = {}
         self.columns = make_chain(beam, family, refinement, damping.loss_factor).columns
         self.places = np.unique([self.node(o.x) for o in outputs])
         self.loads = self._loads(family)
 
     def node(self, x: float) -> int:
         """Return the node at a station [m]."""
-        return int(np.argmin(np.abs(self.chain.nodes - (x - self.origin))))
+        if x not in self._nodes:
+            self._nodes[x] = int(np.argmin(np.abs(self.chain.nodes - (x - self.origin))))
+        return self._nodes[x]
 
     def _loads(self, family: FamilyName) -> Loads:
         """Return unit loads, a case for each drive; those of other families do nothing."""
@@ -94,7 +101,7 @@ class Forced:
 
     def on(self, lanes: Lanes, damped: Callable[[Numbers], Numbers] | None = None) -> Numbers:
         """Return components of states, not their rates, over forces and displacements."""
-        sides = forced_states(self.chain, self.columns, lanes, self.loads, self.places)
+        sides = self.backend.forced_states(self.chain, self.columns, lanes, self.loads, self.places)
         if damped is not None:
             sides = Sides(*map(damped, sides))
         H = np.empty((len(self.outputs), len(self.drives), len(lanes.omega2)), dtype=complex)

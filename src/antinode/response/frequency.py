@@ -22,6 +22,7 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import InputError
+from antinode.modes.backends import BackendName
 from antinode.modes.solve import HasBeam
 
 from .damping import UNDAMPED, Damping
@@ -88,6 +89,7 @@ class Model:
     damping : Damping
     highest_hz : float
         No frequency will be higher [Hz].
+    backend : {"auto", "numpy", "numba"}
     """
 
     def __init__(
@@ -97,7 +99,9 @@ class Model:
         outputs: Sequence[Output],
         damping: Damping,
         highest_hz: float,
+        backend: BackendName = "auto",
     ) -> None:
+        self.backend = backend
         self.drives, self.outputs, self.damping = tuple(drives), tuple(outputs), damping
         if not self.drives or not self.outputs:
             raise InputError("a response needs at least one force, or [base], and one output")
@@ -113,7 +117,9 @@ class Model:
 
     def first(self, family: FamilyName) -> int:
         """Return the refinement to start from."""
-        return max(1, modes_below(self.beam, family, self.highest_hz) // _PER_REFINEMENT)
+        return max(
+            1, modes_below(self.beam, family, self.highest_hz, self.backend) // _PER_REFINEMENT
+        )
 
     def rows(self, family: FamilyName) -> list[int]:
         """Return which outputs are of a family."""
@@ -125,7 +131,7 @@ class Model:
         if key not in self._chains:
             outputs = tuple(self.outputs[row] for row in self.rows(family))
             self._chains[key] = Forced(
-                self.beam, family, self.drives, outputs, self.damping, refinement
+                self.beam, family, self.drives, outputs, self.damping, refinement, self.backend
             )
         return self._chains[key]
 
@@ -198,10 +204,7 @@ def rounding(forced: Forced, omega: Array, H: Numbers) -> Array:
         np.diff(H.reshape(-1, len(omega)), axis=-1, append=H.reshape(-1, len(omega))[:, -1:])
     )
     steep = np.maximum(steep, np.roll(steep, 1, axis=-1))
-    peak, steepest = (
-        np.argsort(v / np.maximum(np.max(v, axis=-1, keepdims=True), 1e-300), axis=-1)
-        for v in (size, steep)
-    )
+    peak, steepest = (np.argpartition(v, -min(2, len(omega)), axis=-1) for v in (size, steep))
     worst = np.unique(np.concatenate([peak[:, -2:].ravel(), steepest[:, -2:].ravel()]))
     worst = worst[:: max(1, len(worst) // _SAMPLES)]
     moved = np.abs(forced.at(omega[worst] * (1 + _STEP)) - H[:, :, worst]) / _STEP
@@ -217,6 +220,7 @@ def frequency_response(
     *,
     damping: Damping = UNDAMPED,
     tolerance: float = 1e-6,
+    backend: BackendName = "auto",
 ) -> FrequencyResponse:
     """Compute frequency responses of a beam, without modal truncation.
 
@@ -233,6 +237,8 @@ def frequency_response(
         Not by ratios of modes: `modal_response` takes those.
     tolerance : float
         Error of an output by what varies inside segments, relative to its largest value.
+    backend : {"auto", "numpy", "numba"}
+        What carries the states: compiled code, or numpy, which is read.
 
     Returns
     -------
@@ -250,7 +256,7 @@ def frequency_response(
             "ratios of modes are no property of a beam: use modal_response, or a loss factor"
         )
     beam = problem if isinstance(problem, Beam) else problem.beam()
-    model = Model(beam, drives, outputs, damping, float(np.max(frequency)))
+    model = Model(beam, drives, outputs, damping, float(np.max(frequency)), backend)
     H, error = model.response(frequency, tolerance)
     return FrequencyResponse(
         beam, frequency, model.drives, model.outputs, H, error, model.segments()

@@ -192,7 +192,7 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
     frequency, amplitude = file.frequency.hertz(), file.amplitudes()
     items, shown = items_of(problem, "amplitude"), len(file.outputs)
     drives, outputs = file.drives, (*file.outputs, *(item.output for item in items))
-    model = Model(problem.beam, drives, outputs, damping, float(frequency[-1]))
+    model = Model(problem.beam, drives, outputs, damping, float(frequency[-1]), problem.backend)
     modes = bases(model.beam, drives, outputs, damping, float(frequency[-1]))
     if damping.modal:
         summed = modal_response(model, frequency, file.response.modes, file.response.tolerance)

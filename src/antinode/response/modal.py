@@ -21,10 +21,11 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.beam.representation import own_loss
 from antinode.errors import InputError
+from antinode.modes.backends import BackendName, choose
 from antinode.modes.hertz import hertz
 from antinode.modes.result import ModalResult
 from antinode.modes.solve import solve_one
-from antinode.riccati.chain import Chain, count_below, largest_wave_number
+from antinode.riccati.chain import Chain, largest_wave_number
 from antinode.riccati.points import Point
 from antinode.riccati.shapes import gauss_rule, integrate_squares, propagate
 
@@ -84,7 +85,9 @@ class Basis:
         return np.asarray(np.where(omega > 0, np.diag(self.damping) / (2 * safe), 0.0))
 
 
-def modes_below(beam: Beam, family: FamilyName, frequency_hz: float) -> int:
+def modes_below(
+    beam: Beam, family: FamilyName, frequency_hz: float, backend: BackendName = "auto"
+) -> int:
     """Return how many modes lie below a frequency, about: by the count of a coarse chain."""
     omega2 = (2 * np.pi * frequency_hz) ** 2
     beam = fixed_direction(beam)
@@ -92,7 +95,7 @@ def modes_below(beam: Beam, family: FamilyName, frequency_hz: float) -> int:
     if np.any(beam.varies(family)):
         waves = float(np.sum(chain.law.oscillation(chain, omega2) * chain.length)) / np.pi
         chain = beam.chain(family, max(1, int(waves / 4)))
-    return int(count_below(chain, [omega2])[0])
+    return int(choose(backend).evaluate(chain, [omega2]).below[0])
 
 
 def fixed_direction(beam: Beam) -> Beam:

@@ -197,7 +197,9 @@ def static_whole(model: Model, family: FamilyName, shift: float) -> tuple[Array,
     whole, error = (np.zeros((len(model.outputs), len(model.drives))) for _ in range(2))
 
     def compute(refinement: int) -> Array:
-        forced = Forced(model.beam, family, model.drives, outputs, UNDAMPED, refinement)
+        forced = Forced(
+            model.beam, family, model.drives, outputs, UNDAMPED, refinement, model.backend
+        )
         H = forced.on(lanes)[:, :, 0].real
         for case, drive in enumerate(model.drives):
             if isinstance(drive, Base):

@@ -395,7 +395,7 @@ def solve_random(problem: Problem) -> RandomResult:
     band = float(frequency[0]), float(frequency[-1])
     items = items_of(problem, "psd")
     drives, outputs = file.drives, (*file.outputs, *(item.output for item in items))
-    model = Model(problem.beam, drives, outputs, damping, band[1])
+    model = Model(problem.beam, drives, outputs, damping, band[1], problem.backend)
     modes = bases(model.beam, drives, outputs, damping, band[1])
     tolerance = file.response.tolerance
     if damping.modal:
@@ -470,7 +470,7 @@ def envelope_of(
         for quantity in ("acceleration", "bending_moment")
         for place in x
     ]
-    model = Model(problem.beam, file.drives, outputs, problem.damping, band[1])
+    model = Model(problem.beam, file.drives, outputs, problem.damping, band[1], problem.backend)
     own = moments(model, inputs, modes, band, 1e-4)
     rms = np.sqrt(own.square).reshape(2, -1)
     error = own.error / (2 * np.sqrt(np.maximum(own.square, 1e-300)))

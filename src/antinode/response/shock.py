@@ -198,7 +198,7 @@ def solve_shock(problem: Problem) -> ShockResult:
     frequency, items = file.frequency.hertz(), items_of(problem, "amplitude")
     time = file.time.seconds()
     outputs = (*file.outputs, *(item.output for item in items))
-    model = Model(problem.beam, file.drives, outputs, damping, 1 / file.time.to)
+    model = Model(problem.beam, file.drives, outputs, damping, 1 / file.time.to, problem.backend)
     y, error, _, driven, bases, count = respond(
         model, histories_of(problem), time, file.response.modes
     )

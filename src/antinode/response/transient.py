@@ -279,7 +279,9 @@ def solve_transient(problem: Problem) -> TransientResult:
     assert file.time is not None
     time = file.time.seconds()
     histories = histories_of(problem)
-    model = Model(problem.beam, file.drives, file.outputs, damping, 1 / file.time.to)
+    model = Model(
+        problem.beam, file.drives, file.outputs, damping, 1 / file.time.to, problem.backend
+    )
     y, error, _, driven, bases, count = respond(model, histories, time, file.response.modes)
     largest, between = peaks_of(driven.time_s, y)
     return TransientResult(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from .arrays import Array
 from .chain import Chain, evaluate
 from .chains import BeamRoots, ChainRoots, Chains, Tables
+from .forced import forced_states
 from .reasons import BY_ITSELF
 from .roots import FollowingRoots, find_eigenvalues
 from .shapes import mode_energies, mode_states
@@ -14,6 +15,7 @@ __all__ = [
     "evaluate",
     "find_eigenvalues",
     "find_following",
+    "forced_states",
     "mode_energies",
     "mode_states",
     "name",

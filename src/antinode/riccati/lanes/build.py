@@ -274,6 +274,11 @@ def _optimised(parts: list[Any], symbols: dict[str, str]) -> bytes:
             manager.add_loop_rotate_pass()
             manager.add_instruction_combine_pass()
             manager.add_jump_threading_pass()
+        else:  # functions too long for their callers raise nothing either
+            manager.add_ipsccp_pass()
+            manager.add_simplify_cfg_pass()
+            manager.add_global_dead_code_eliminate_pass()
+            manager.add_strip_dead_prototype_pass()
         manager.run(whole, builder)
     whole.verify()
     outside = {f.name for f in whole.functions if f.is_declaration and "llvm." not in f.name}

@@ -20,6 +20,7 @@ from antinode.riccati.roots import Eigenvalue, FollowingRoots, check_certificate
 from antinode.riccati.roots import find_eigenvalues as find_readable
 
 from . import single
+from .forced.states import forced_states
 from .laws import FORMS
 from .library import library
 from .scratch import Need, new_table, scratch
@@ -34,6 +35,7 @@ __all__ = [
     "evaluate",
     "find_eigenvalues",
     "find_following",
+    "forced_states",
     "mode_energies",
     "mode_states",
     "name",

@@ -12,6 +12,8 @@ import numpy as np
 from antinode.riccati.chains import ChainRoots
 
 from . import following, laws, levels, rows, search, shapes
+from .forced import sweep
+from .forced.layout import Driven, Ends, new_room
 from .structures import Kept
 from .workspace import (
     NO_POINTS,
@@ -27,8 +29,8 @@ from .workspace import (
     new_search,
 )
 
-_f1, _f2, _f3, _f4 = (np.zeros((1,) * dimensions) for dimensions in range(1, 5))
-_i1 = np.zeros(1, np.int64)
+_f1, _f2, _f3, _f4, _f5 = (np.zeros((1,) * dimensions) for dimensions in range(1, 6))
+_i1, _i2 = np.zeros(1, np.int64), np.zeros((1, 1), np.int64)
 _i, _f, _b = 1, 1.0, True
 
 _chain, _lanes, _search = new_chain(1, 1, 1, 1), Kept(new_lanes()), Kept(new_search(1))
@@ -37,6 +39,7 @@ _task, _warmth = Task(1, 1.0, True), Warmth(_i1, _f1, _f1, _f3, _f2)
 _interior = Interior(1, 1, 1.0, 1.0, 1.0, True, 1.0, 1.0, 1)
 _scaled = new_scaled(1)
 _found = ChainRoots.empty(1, 1)
+_driven = Driven(_i2, _f2, _i1, _f2, _f2, _f2, _f3, _f1, 1.0)
 
 ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "scale": (rows.scale, (_chain, _f1)),
@@ -70,5 +73,6 @@ ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
         shapes.squares,
         (_f1, _f1, _scaled, _f1, _f2, _f3, _f1, _f1, _f2, _f3),
     ),
+    "drive": (sweep.drive, (_driven, Ends(_f2, _f2, True, True), _f2, new_room(1, 1, 1), _f5, _f5)),
     "repeat": (search.repeat, (_chain, _f2, _lanes, _i, _i)),
 }

@@ -158,7 +158,7 @@ def _key() -> str:
     import llvmlite.binding as llvm
 
     found = hashlib.sha256()
-    for path in [*sorted(_FOLDER.glob("*.py")), *_MORE_SOURCES]:
+    for path in [*sorted(_FOLDER.rglob("*.py")), *_MORE_SOURCES]:
         if path.name not in _NOT_COMPILED:
             found.update(path.name.encode() + path.read_bytes())
     features = llvm.get_host_cpu_features().flatten()

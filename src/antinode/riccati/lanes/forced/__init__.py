@@ -1,0 +1,1 @@
+"""Lateral motion that is driven, compiled: eight frequencies side by side."""

@@ -1,0 +1,189 @@
+"""`riccati.forced.forced_states` by compiled code."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import comb, factorial
+
+import numpy as np
+
+from antinode.riccati import forced as readable
+from antinode.riccati.arrays import Array, Integers
+from antinode.riccati.chain import Chain, end_frame, right_conditions, state_units
+from antinode.riccati.forced import Lanes, Loads, Sides
+from antinode.riccati.lanes.library import library
+from antinode.riccati.lanes.workspace import LANES
+from antinode.riccati.lateral import Lateral
+from antinode.riccati.laws import Columns
+from antinode.riccati.points import Point
+
+from .layout import (
+    AFTER,
+    BASIS,
+    BEFORE,
+    CONSTANTS,
+    FORCE,
+    HOLD,
+    INERT,
+    JOINT,
+    LANE,
+    LENGTH,
+    LOADS,
+    LONGEST,
+    PHASE,
+    POINT,
+    POWERS,
+    SEGMENTS,
+    SIZE,
+    TERMS,
+    Driven,
+    Ends,
+    new_room,
+)
+
+_MOST_BASES = 200_000  # that one group of lanes keeps
+_FIELDS = "mass", "offset", "inertia", "spring", "rotational_spring", "coupling", "own_load"
+_MORE_FIELDS = "dashpot", "rotational_dashpot", "compliance"
+
+
+def forced_states(
+    chain: Chain, columns: Columns, lanes: Lanes, loads: Loads, wanted: Integers
+) -> Sides:
+    """Return the states of a driven chain at some of its nodes.
+
+    Bars and shafts, feedback, and what would take too many bases, are left to the readable form.
+    """
+    size = np.abs(lanes.omega2)
+    phase = chain.law.wave_number(chain, float(np.max(size))) * chain.length
+    bases = _bases(chain, phase, loads)
+    special = not isinstance(chain.law, Lateral) or any(p.feeds_back for p in chain.points)
+    if special or bases > _MOST_BASES:
+        return readable.forced_states(chain, columns, lanes, loads, wanted)
+    k, cases = len(lanes.omega2), loads.cases
+    driven, ends = _driven(chain, columns, phase, loads, wanted), _ends(chain, size)
+    left, right = np.empty((2, len(wanted), k, SIZE, cases, 2))
+    room = new_room(cases, bases, 2 * len(wanted))
+    if library().call("drive", driven, ends, _lanes(chain, lanes, size), room, left, right)[0]:
+        raise FloatingPointError("the chain takes more bases than were expected")
+    return Sides(*(side.view(complex)[..., 0] for side in (left, right)))
+
+
+def _bases(chain: Chain, phase: Array, loads: Loads) -> int:
+    """Return how many bases a sweep takes at most; very many where no number comes out."""
+    total = float(np.sum(phase))
+    if not np.isfinite(total) or total > BASIS * _MOST_BASES:
+        return _MOST_BASES + 1
+    # two neighbouring bases have more than a limit of phase behind them together
+    return int(2 * total / BASIS) + 3 * (len(chain.points) + len(loads.at_nodes)) + 8
+
+
+def _driven(chain: Chain, columns: Columns, phase: Array, loads: Loads, wanted: Integers) -> Driven:
+    foundation = chain.columns.get("foundation", np.zeros(len(chain.length)))
+    pieces = np.maximum(np.ceil(phase / LONGEST), 1).astype(np.int64)
+    constants = _constants(chain, columns, pieces, phase / pieces)
+    rows = [[getattr(p, f) for f in (*_FIELDS, *_MORE_FIELDS)] for p in chain.points]
+    nodes = sorted(loads.at_nodes)
+    forces = [loads.at_nodes[node] for node in nodes]
+    return Driven(
+        _steps(chain, nodes, wanted),
+        constants,
+        pieces,
+        _series(chain, constants),
+        np.ascontiguousarray(loads.along + foundation[:, None] * loads.ground),
+        np.array(rows, dtype=float).reshape(-1, POINT),
+        np.array(forces, dtype=float).reshape(-1, 2, loads.cases),
+        np.array(loads.ground, dtype=float),
+        chain.reference[0],
+    )
+
+
+def _steps(chain: Chain, forced: list[int], wanted: Integers) -> Integers:
+    """Return the steps from the left end to the right one."""
+    index = {node: i for i, node in enumerate(wanted.tolist())}
+    points = {point.node: (i, point) for i, point in enumerate(chain.points)}
+    places = sorted({*points, *forced, *index, 0, len(chain.length)})
+    steps: list[tuple[int, int, int]] = []
+    for here, after in zip(places, [*places[1:], -1], strict=True):
+        if here in index:
+            steps.append((BEFORE, index[here], 0))
+        number, point = points.get(here, (-1, None))
+        force = forced.index(here) if here in forced else -1
+        steps += _at_node(number, point, force)
+        if here in index:
+            steps.append((AFTER, index[here], 0))
+        if after >= 0:
+            steps.append((SEGMENTS, here, after))
+    return np.array(steps)
+
+
+def _at_node(number: int, point: Point | None, force: int) -> list[tuple[int, int, int]]:
+    """Return a support, then what has mass or pulls, then a joint."""
+    steps: list[tuple[int, int, int]] = []
+    acts = point is not None and (point.loads or point.damps)
+    if point is not None and point.holds:
+        steps.append((HOLD, number, sum(1 << row for row in point.holds)))
+    if acts or force >= 0:
+        steps.append((LOADS, number if acts else -1, force))
+    if point is not None and point.compliance:
+        steps.append((JOINT, number, 0))
+    return steps
+
+
+def _constants(chain: Chain, columns: Columns, pieces: Integers, phase: Array) -> Array:
+    """Return the constants of a piece of every segment, shape (n, CONSTANTS)."""
+    h, EI, K0 = chain.length / pieces, columns["stiffness"], chain.reference[0]
+    s, turn, work, rotary, foundation = (columns.get(name, 0.0) for name in chain.law.more)
+    two, four = h * h, h**4
+    own = np.zeros((len(h), LENGTH // 2), dtype=complex)
+    own[:, 0], own[:, 1] = (columns["axial_force"] + work) * two / EI, rotary * two / EI
+    own[:, 2], own[:, 3] = -foundation * four / EI, columns["mass"] * four / EI
+    own[:, 4], own[:, 5], own[:, 6], own[:, 7] = s * EI / two, 1 + turn, K0 / EI, EI / K0
+    constants = np.empty((len(h), CONSTANTS))
+    constants[:, :LENGTH], constants[:, LENGTH], constants[:, PHASE] = own.view(float), h, phase
+    constants[:, FORCE] = columns["axial_force"].real * two / K0
+    constants[:, INERT] = columns["mass"].real * four / K0
+    return constants
+
+
+def _series(chain: Chain, constants: Array) -> Array:
+    """Return g_3 ... g_0 in powers of c, ``sum C(k - p, p) b^(k - 2 p) c^p/(2 k + j)!``."""
+    if not chain.is_plain:
+        return np.empty((0, 8 * POWERS))
+    b = -constants[:, :2].copy().view(complex)
+    return (b ** np.arange(TERMS) @ _weights()).view(float)
+
+
+@cache
+def _weights() -> Array:
+    """Return what each power of b has in each power of c of each series."""
+    weights = np.zeros((TERMS, 4 * POWERS))
+    for column in range(4 * POWERS):
+        j, p = 3 - column // POWERS, column % POWERS
+        for k in range(2 * p, TERMS):
+            weights[k - 2 * p, column] = comb(k - p, p) / factorial(2 * k + j)
+    return weights
+
+
+def _groups(values: Array) -> Array:
+    """Return rows of numbers in groups of lanes, shape (groups, numbers LANES)."""
+    missing = -len(values) % LANES
+    whole = np.concatenate([values, np.repeat(values[-1:], missing, axis=0)])
+    whole = whole.reshape(-1, LANES, values[0].size).transpose(0, 2, 1)
+    return np.ascontiguousarray(whole.reshape(len(whole), -1))
+
+
+def _lanes(chain: Chain, lanes: Lanes, size: Array) -> Array:
+    parts = np.empty((len(size), LANE // LANES))
+    parts[:, 0], parts[:, 1] = lanes.omega2.real, lanes.omega2.imag
+    parts[:, 2], parts[:, 3] = lanes.dashpot.real, lanes.dashpot.imag
+    parts[:, 4] = chain.scale_length(size)
+    parts[:, 5] = 1 / parts[:, 4]
+    return _groups(parts)
+
+
+def _ends(chain: Chain, size: Array) -> Ends:
+    units, ends = state_units(chain, size), chain.law.ends
+    start = np.swapaxes(end_frame(chain, 0, units), 1, 2)
+    conditions = np.broadcast_to(right_conditions(chain, units), start.shape)
+    frame, wanted = (_groups(np.asarray(part, dtype=float)) for part in (start, conditions))
+    return Ends(frame, wanted, 0 in ends[chain.left], 0 in ends[chain.right])
