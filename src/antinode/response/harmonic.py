@@ -161,8 +161,7 @@ def resonance_warnings(beam: Beam, modes: tuple[Basis, ...], low: float, high: f
     if any(beam.ends.follow):
         return [
             "the force of an end turns with it: the response is exact, but peaks are looked for by "
-            "the modes of a force of fixed direction, and named by them; a narrow one may be "
-            "missed, and whether damping makes the motion grow is not checked"
+            "the modes of a force of fixed direction, and named by them; a narrow one may be missed"
         ]
     names = [
         name

@@ -13,10 +13,12 @@ from antinode.beam.beam import Beam
 from antinode.errors import ComputationError
 from antinode.modes.solve import HasBeam, beam_of
 
+from .damping import Damping
 from .file import Problem, ResponseFile, load_response, with_equipment
 from .quantities import Drive
 
 if TYPE_CHECKING:
+    from antinode.modes.damped.family import Damping as Way
     from antinode.modes.result import Mode
 
     from .harmonic import HarmonicResult
@@ -27,6 +29,9 @@ if TYPE_CHECKING:
     Result = HarmonicResult | RandomResult | TransientResult | ShockResult
 
 Kind = Literal["harmonic", "random", "transient", "shock"]
+
+
+_FEW, _MORE = 3, 6  # modes that are asked whether they grow
 
 
 def solve_response(problem: Problem | str | Path) -> Result:
@@ -50,19 +55,19 @@ def solve_response(problem: Problem | str | Path) -> Result:
         If no trustworthy answer could be computed.
     """
     own = problem if isinstance(problem, Problem) else load_response(problem)
-    growing = unstable(own.beam, own.file.drives)
+    growing = unstable(own.beam, own.file.drives, own.damping)
     names = ", ".join(f"{m.name} grows at {m.growth_rate_per_s:.4g} /s" for m in growing[:3])
     if own.file.equipment and any(mode.number for mode in growing):  # not the attitude alone
         raise ComputationError(
-            f"{own.title}: the body is not stable under its axial force ({names}); no verdict on "
-            "equipment can be given: lower the force, or leave [[equipment]] out to see the "
-            "forced part alone"
+            f"{own.title}: the body is not stable under its axial force, dampers and feedback "
+            f"({names}); no verdict on equipment can be given: 'antinode stability' tells the load "
+            "at which it begins; leave [[equipment]] out to see the forced part alone"
         )
     result = _solved(own)
     if growing:
         told = (
-            f"the body is not stable under its axial force ({names}): what is shown is the forced "
-            "part alone, which never comes by itself"
+            f"the body is not stable under its axial force, dampers and feedback ({names}): what "
+            "is shown is the forced part alone, which never comes by itself"
         )
         result = replace(result, warnings=(told, *result.warnings))
     return result
@@ -113,22 +118,36 @@ def beam_response(
     return solve_response(Problem(file, with_equipment(beam, file), Path(folder), where))
 
 
-def unstable(beam: Beam, drives: tuple[Drive, ...]) -> list[Mode]:
-    """Return the modes of the driven families that grow by themselves, with dashpots and feedback.
+def unstable(beam: Beam, drives: tuple[Drive, ...], damping: Damping) -> list[Mode]:
+    """Return the modes of the driven families that grow by themselves.
 
-    Loss factors do not count.
+    Dampers to the ground and losses only calm a self-adjoint problem. Where ends follow or
+    something feeds back they may make it grow (Ziegler, 1952), and complex modes are asked.
     """
     from antinode.modes.solve import solve_one
 
-    feedback = any(isinstance(item, PointFeedback) for item in beam.attachments)
-    if not np.any(beam.axial_force) and not beam.axial_acceleration and not feedback:
+    feeds = any(isinstance(item, PointFeedback) for item in beam.attachments)
+    if not np.any(beam.axial_force) and not beam.axial_acceleration and not feeds:
         return []
+    follows = any(beam.ends.follow)
+    own = _lossy(beam, damping.loss_factor) if follows else beam
+    lossy = follows and own.loss_factor is not None and bool(np.any(own.loss_factor))
+    way: Way = "complex" if lossy else "auto" if feeds or follows else "none"
+    number = _FEW if way == "none" else _MORE
     return [
         mode
         for family in dict.fromkeys(drive.family for drive in drives)
-        for mode in solve_one(beam, 3, families=[family]).family(family)
+        for mode in solve_one(own, number, families=[family], damping=way).family(family)
         if mode.kind in ("divergent", "flutter")
     ]
+
+
+def _lossy(beam: Beam, loss_factor: float) -> Beam:
+    """Return a beam whose own loss factors are larger by that of a response."""
+    if not loss_factor:
+        return beam
+    own = np.zeros((len(beam.x) - 1, 2)) if beam.loss_factor is None else beam.loss_factor
+    return replace(beam, loss_factor=own + loss_factor)
 
 
 def _solved(own: Problem) -> Result:

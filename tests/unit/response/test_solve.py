@@ -54,6 +54,16 @@ def test_what_grows_by_itself_is_said(tmp_path, kind, N, share):
     assert "not stable" not in asked(tmp_path, 2.0, share, kind).out
 
 
+@pytest.mark.parametrize("kind", ["harmonic", "random"])
+def test_a_loss_makes_it_flutter_below_the_load_without_one(tmp_path, kind):
+    """Beck's column flutters at 20.05; with internal damping from about 11 (Ziegler, 1952)."""
+    for N, grows in ((15.0, True), (8.0, False)):
+        ended = asked(tmp_path, N, 1.0, kind)
+        assert ("dampers and feedback" in " ".join(ended.out.split())) == grows
+        assert ended.code == 0
+    assert asked(tmp_path, 15.0, 1.0, "harmonic", EQUIPMENT).code == 1
+
+
 def test_no_verdict_on_what_grows(tmp_path):
     assert asked(tmp_path, 2.0, 0.0, "harmonic", EQUIPMENT).code == 0
     ended = asked(tmp_path, 25.0, 0.0, "harmonic", EQUIPMENT)
