@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from antinode.modes.solve import HasBeam, beam_of
 
 from .damping import Damping
 from .file import Problem, ResponseFile, load_response, with_equipment
+from .numbers import Headline, headlines
 from .quantities import Drive
 
 if TYPE_CHECKING:
@@ -116,6 +117,35 @@ def beam_response(
     where = "response(...)"
     file = validate(ResponseFile, {"response": asked, **tables}, where)
     return solve_response(Problem(file, with_equipment(beam, file), Path(folder), where))
+
+
+class Numbers(NamedTuple):
+    """What a response comes to, and what must be said beside it."""
+
+    headlines: tuple[Headline, ...]
+    warnings: tuple[str, ...]
+
+
+def response_numbers(problem: Problem | str | Path, beam: Beam | None = None) -> Numbers:
+    """Compute what a response file asks for, and return the few numbers that it comes to.
+
+    Parameters
+    ----------
+    problem : Problem or path
+        As `solve_response` takes it.
+    beam : Beam, optional
+        In place of that of the file, without the file's equipment: a design among many.
+
+    Returns
+    -------
+    Numbers
+        With their errors (`antinode.response.numbers.headlines`).
+    """
+    own = problem if isinstance(problem, Problem) else load_response(problem)
+    if beam is not None:
+        own = own._replace(beam=with_equipment(beam, own.file))
+    result = solve_response(own)
+    return Numbers(headlines(result), result.warnings)
 
 
 def unstable(beam: Beam, drives: tuple[Drive, ...], damping: Damping) -> list[Mode]:

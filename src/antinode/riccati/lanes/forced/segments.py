@@ -77,6 +77,24 @@ def times(real, value):
 
 
 @compiled
+def conjugate(value):
+    """Return the conjugate."""
+    return complex(value.real, -value.imag)
+
+
+@compiled
+def over(a, b):
+    """Return a/b."""
+    return times(1.0 / (b.real * b.real + b.imag * b.imag), a * conjugate(b))
+
+
+@compiled
+def square(value):
+    """Return the square of the modulus."""
+    return value.real * value.real + value.imag * value.imag
+
+
+@compiled
 def get(array, place):
     """Return the complex number of a lane."""
     return complex(array[place], array[place + LANES])

@@ -45,35 +45,23 @@ from .layout import (
     UNIT,
 )
 from .segments import (
+    conjugate,
     driven,
     get,
+    over,
     plain,
     put,
     series,
+    square,
     through_both,
     through_case,
     times,
     transfer,
 )
+from .supports import hold
 
 _Y, _PSI, _M, _Q = (row * PAIR for row in range(4))
 _ROW = 2 * PAIR  # of the 2 x 2 coefficients, and of the coefficients of a case
-
-
-@compiled
-def _conjugate(value):
-    return complex(value.real, -value.imag)
-
-
-@compiled
-def _over(a, b):
-    """Return a/b."""
-    return times(1.0 / (b.real * b.real + b.imag * b.imag), a * _conjugate(b))
-
-
-@compiled
-def _square(value):
-    return value.real * value.real + value.imag * value.imag
 
 
 @compiled
@@ -229,13 +217,13 @@ def _orthonormalise(w):
     for lane in range(LANES):
         Y, psi = get(w, FIRST + _Y + lane), get(w, FIRST + _PSI + lane)
         M, Q = get(w, FIRST + _M + lane), get(w, FIRST + _Q + lane)
-        size = 1.0 / math.sqrt(_square(Y) + _square(psi) + _square(M) + _square(Q))
+        size = 1.0 / math.sqrt(square(Y) + square(psi) + square(M) + square(Q))
         Y, psi, M, Q = times(size, Y), times(size, psi), times(size, M), times(size, Q)
         Z, phi = get(w, SECOND + _Y + lane), get(w, SECOND + _PSI + lane)
         N, R = get(w, SECOND + _M + lane), get(w, SECOND + _Q + lane)
-        r = _conjugate(Y) * Z + _conjugate(psi) * phi + _conjugate(M) * N + _conjugate(Q) * R
+        r = conjugate(Y) * Z + conjugate(psi) * phi + conjugate(M) * N + conjugate(Q) * R
         Z, phi, N, R = Z - r * Y, phi - r * psi, N - r * M, R - r * Q
-        other = 1.0 / math.sqrt(_square(Z) + _square(phi) + _square(N) + _square(R))
+        other = 1.0 / math.sqrt(square(Z) + square(phi) + square(N) + square(R))
         put(w, FIRST + _Y + lane, Y)
         put(w, FIRST + _PSI + lane, psi)
         put(w, FIRST + _M + lane, M)
@@ -258,8 +246,8 @@ def _take_out(w):
         q0, q1 = complex(0.0, 0.0), complex(0.0, 0.0)
         for row in range(4):
             p = get(w, CASE + row * PAIR + lane)
-            q0 += _conjugate(get(w, FIRST + row * PAIR + lane)) * p
-            q1 += _conjugate(get(w, SECOND + row * PAIR + lane)) * p
+            q0 += conjugate(get(w, FIRST + row * PAIR + lane)) * p
+            q1 += conjugate(get(w, SECOND + row * PAIR + lane)) * p
         for row in range(4):
             p = get(w, CASE + row * PAIR + lane) - get(w, FIRST + row * PAIR + lane) * q0
             put(w, CASE + row * PAIR + lane, p - get(w, SECOND + row * PAIR + lane) * q1)
@@ -274,7 +262,7 @@ def _node(chain, kind, first, last, w, room, bases):
     if kind == HOLD:
         for column in range(cases):  # zero so far, or carried
             active = cases if chain.ground[column] != 0.0 else active
-        _hold(chain, last, w, room, bases)
+        hold(chain, last, w, room, bases)
         return active
     if first >= 0:
         _act(chain, kind, first, w, w, FIRST)
@@ -348,82 +336,6 @@ def _turn(chain, point, lanes, z, column):
 
 
 @compiled
-def _hold(chain, rows, w, room, basis):
-    """Pass a support of the displacement (1), of the turn (2) or of both (3)."""
-    for lane in range(LANES):
-        if rows == 3:
-            _hold_both(chain, lane, w, room, basis)
-        else:
-            _hold_one(chain, rows - 1, lane, w, room, basis)
-
-
-@compiled
-def _hold_both(chain, lane, w, room, basis):
-    """Start anew: only the forces are free behind it."""
-    a, b = get(w, FIRST + lane), get(w, SECOND + lane)
-    c, d = get(w, FIRST + _PSI + lane), get(w, SECOND + _PSI + lane)
-    whole, back = a * d - b * c, room.back[basis]
-    for part in range(4):
-        put(back, part * PAIR + lane, complex(0.0, 0.0))
-    for case in range(len(chain.ground)):
-        z, shift = room.cases[case], room.shift[basis, case]
-        moved = chain.ground[case] / w[UNIT + lane]
-        Y, psi = moved - get(z, lane), -get(z, _PSI + lane)
-        put(shift, lane, _over(d * Y - b * psi, whole))
-        put(shift, PAIR + lane, _over(a * psi - c * Y, whole))
-        for row in range(4):
-            put(z, row * PAIR + lane, complex(moved if row == 0 else 0.0, 0.0))
-    for row in range(4):
-        put(w, FIRST + row * PAIR + lane, complex(1.0 if row == 2 else 0.0, 0.0))
-        put(w, SECOND + row * PAIR + lane, complex(1.0 if row == 3 else 0.0, 0.0))
-
-
-@compiled
-def _hold_one(chain, row, lane, w, room, basis):
-    """Hold one displacement: its force is free behind, and one state of the frame is left."""
-    held, force, back = row * PAIR + lane, (3 - row) * PAIR + lane, room.back[basis]
-    a, b = get(w, FIRST + held), get(w, SECOND + held)
-    size = 1.0 / math.sqrt(_square(a) + _square(b))
-    a, b, length = times(size, a), times(size, b), 0.0
-    for other in range(4):
-        place = other * PAIR + lane
-        if other != row and other != 3 - row:
-            length += _square(b * get(w, FIRST + place) - a * get(w, SECOND + place))
-    length = 1.0 / math.sqrt(length)
-    for case in range(len(chain.ground)):
-        z, shift = room.cases[case], room.shift[basis, case]
-        ground = chain.ground[case] / w[UNIT + lane] if row == 0 else 0.0
-        missing = times(size, ground - get(z, held))
-        m0, m1, q = _conjugate(a) * missing, _conjugate(b) * missing, complex(0.0, 0.0)
-        put(z, held, complex(ground, 0.0))
-        put(z, force, complex(0.0, 0.0))
-        for other in range(4):
-            place = other * PAIR + lane
-            if other != row and other != 3 - row:
-                wall = get(z, place) + get(w, FIRST + place) * m0 + get(w, SECOND + place) * m1
-                left = times(length, b * get(w, FIRST + place) - a * get(w, SECOND + place))
-                q += _conjugate(left) * wall
-                put(z, place, wall)
-        for other in range(4):
-            place = other * PAIR + lane
-            if other != row and other != 3 - row:
-                left = times(length, b * get(w, FIRST + place) - a * get(w, SECOND + place))
-                put(z, place, get(z, place) - left * q)
-        put(shift, lane, m0 - times(length, b * q))
-        put(shift, PAIR + lane, m1 + times(length, a * q))
-    for other in range(4):
-        place = other * PAIR + lane
-        left = times(length, b * get(w, FIRST + place) - a * get(w, SECOND + place))
-        free = other == row or other == 3 - row
-        put(w, FIRST + place, complex(0.0, 0.0) if free else left)
-        put(w, SECOND + place, complex(1.0 if other == 3 - row else 0.0, 0.0))
-    put(back, lane, times(length, b))
-    put(back, PAIR + lane, complex(0.0, 0.0))
-    put(back, _ROW + lane, times(-length, a))
-    put(back, _ROW + PAIR + lane, complex(0.0, 0.0))
-
-
-@compiled
 def _close(chain, ends, group, w, room):
     """Set the coefficients that meet the conditions of the right end."""
     wanted = ends.wanted[group]
@@ -438,8 +350,8 @@ def _close(chain, ends, group, w, room):
                 moved = chain.ground[case] / w[UNIT + lane]
                 r0 = r0 + wanted[lane] * moved
                 r1 = r1 + wanted[4 * LANES + lane] * moved
-            put(a, lane, _over(c11 * r0 - c01 * r1, whole))
-            put(a, PAIR + lane, _over(c00 * r1 - c10 * r0, whole))
+            put(a, lane, over(c11 * r0 - c01 * r1, whole))
+            put(a, PAIR + lane, over(c00 * r1 - c10 * r0, whole))
 
 
 @compiled
