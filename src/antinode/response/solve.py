@@ -19,7 +19,7 @@ from .numbers import Headline, headlines
 from .quantities import Drive
 
 if TYPE_CHECKING:
-    from antinode.modes.damped.family import Damping as Way
+    from antinode.modes.result import Damping as Way
     from antinode.modes.result import Mode
 
     from .harmonic import HarmonicResult
