@@ -13,6 +13,7 @@ from antinode.modes.backends import choose
 from antinode.modes.following import Following
 from antinode.modes.refinement import solve_family
 from antinode.modes.rigid import exact_zeros
+from antinode.modes.solvers import Counting
 from antinode.riccati.following_roots import Finder
 
 BACKEND = choose("numpy")
@@ -41,6 +42,26 @@ def compared(beam):
         else:
             return len(theirs), 1, far
     return len(theirs), 0, far
+
+
+def distances(beam, modes=4):
+    """Relative distances from few elements of high degree next to each, and how these scatter."""
+    found = solve_family(beam, "bending", modes, 1e-11, Counting(choose("numba")))
+    assert found.certificate["kind"] == "winding", found.warnings
+    rows = []
+    for value in (v.value for v in found.eigenvalues if v.omega2 != 0.0):
+        one, other = (elements(beam, count, shift=1.003 * value) for count in (2, 4))
+        near, nearer = (e[np.argmin(np.abs(e - value))] for e in (one, other))
+        rows.append((abs(nearer - value) / abs(value), abs(nearer - near) / abs(value)))
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 4, 5])
+def test_tables_against_elements_in_double_precision(seed):
+    rng = np.random.default_rng(20000 + seed)
+    far, own = distances(random_beam(rng, load=[2.0, 8.0, 20.0, 40.0][seed % 4])).T
+    assert np.max(own) < 1e-10
+    assert np.max(far) < 1e-9
 
 
 @pytest.mark.parametrize("seed", range(24))
