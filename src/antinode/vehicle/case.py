@@ -62,6 +62,12 @@ class Case(CaseMethods, Frozen):
     model: Model = Field(default=Model(), description="choices that the equations leave open")
     solve: Solve = Field(default=Solve(), description="what to compute, and how well")
 
+    def __getstate__(self) -> dict[Any, Any]:
+        """Leave to other processes to work out again what was worked out and kept here."""
+        state = super().__getstate__()
+        inputs = {name: state["__dict__"][name] for name in type(self).model_fields}
+        return {**state, "__dict__": inputs}
+
     @cached_property
     def loads(self) -> Loads:
         """Cavity, forces, accelerations and internal forces in this condition."""

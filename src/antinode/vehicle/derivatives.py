@@ -19,7 +19,7 @@ points of every uniform segment, with the exact solution between its ends.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -219,27 +219,27 @@ class ChainModes:
         """Return the displacements of the modes at places [m], to any scale, (points, k)."""
         return np.asarray(self.solution.at(x)[..., 0])
 
-    def slope_squared(self, x: float) -> Array:
+    def slope_squared(self, x: float, sides: Sequence[tuple[float, float]] = ()) -> Array:
         """Return what N works on at a place, over the modal mass, shape (k,).
 
         That is Y'^2, without shear; with it, Haringx' Y'^2 less the shear angle's square, or
         Engesser's Y'^2, as a mean of both sides where N jumps.
+
+        Parameters
+        ----------
+        x : float
+            The place [m].
+        sides : sequence of (float, float), optional
+            Flexibility in shear s [1/N] and N [N] just ahead of it, and just aft.
         """
         here = replace(self.solution, states=self.left_states) if self.chain.follows else None
         both = [z.at(np.array([x]))[0] for z in (self.solution, here or self.solution)]
         right, left = both
-        if "shear" not in self.chain.columns:
-            return np.asarray(right[:, 1] * left[:, 1] / self._modal_mass)
-        nodes, beside = self.chain.nodes, np.array([x * (1 - 1e-12), x * (1 + 1e-12)])
-        sides = np.clip(np.searchsorted(nodes, beside, side="right") - 1, 0, len(nodes) - 2)
-        total = np.zeros(len(self.omega2))
-        for side in sides:
-            columns = {name: v[side] for name, v in self.chain.columns.items()}
-            slopes = [self.chain.law.slope(columns, z) for z in both]
-            square = slopes[0] * slopes[1]
-            if self.shear_form == "haringx":
-                square = square - (slopes[0] - right[:, 1]) * (slopes[1] - left[:, 1])
-            total += square / 2
+        total = right[:, 1] * left[:, 1]
+        for s, N in sides:
+            angles = [s * (N * z[:, 1] - z[:, 3]) for z in both]
+            crossed = right[:, 1] * angles[1] + left[:, 1] * angles[0]
+            total = total + (crossed + (self.shear_form == "engesser") * angles[0] * angles[1]) / 2
         return np.asarray(total / self._modal_mass)
 
 
@@ -398,8 +398,23 @@ class EigenvalueDerivatives:
             by_drag + (self._at_end(0) if force is self.loads.forces[0] else 0.0)
         )
         if self._exact and change.place and force.x > 0:
-            total = total + change.place * force.F_X * self.modes.slope_squared(force.x)
+            square = self.modes.slope_squared(force.x, self._beside(force.x))
+            total = total + change.place * force.F_X * square
         return np.asarray(total)
+
+    def _beside(self, x: float) -> list[tuple[float, float]]:
+        """Return s and N on both sides of a place; nothing where the beam is rigid in shear."""
+        beam = self.beam
+        if not beam.has_shear:
+            return []
+        k = int(np.clip(np.searchsorted(beam.x, x, side="right") - 1, 0, len(beam.x) - 2))
+        found = []
+        for i in (k - 1, k) if x == beam.x[k] and k else (k, k):
+            t = (x - beam.x[i]) / (beam.x[i + 1] - beam.x[i])
+            at = np.array([i]), np.array([t])
+            N, kGA = beam.axial_force_at(*at)[0], beam.column_at("shear_stiffness", *at)[0]
+            found.append((float(1 / (kGA - N if beam.shear_form == "engesser" else kGA)), float(N)))
+        return found
 
     def _steps(self, name: str) -> Array:
         """Return N of a unit drag of this name without acceleration, in every interval."""

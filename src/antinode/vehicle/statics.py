@@ -4,20 +4,24 @@ Lateral, with the inertial load of equation 40 taken with its right sign::
 
     (EI u'')'' + (N u')' = q - m (a_Y + g + (x_M - x) beta)
 
-so that ``Q = M' + N u'`` is the static shear force of the loads, and the slope obeys
-``(EI theta')' + N theta = Q`` with M = EI theta' = 0 at both ends. The result is fixed only up to a
+so that ``Q = M' + N u'`` is the static shear force of the loads, and the turn of the sections obeys
+``(EI theta')' + N theta = Q`` with M = EI theta' = 0 at both ends. With shear (`riccati.lateral`)
+
+    M' = alpha Q - (N + s N^2) theta,   u' = alpha theta - s Q,   alpha = 1 + sN.
+
+The result is fixed only up to a
 rigid motion: it is shown relative to the mean axis (no mass-weighted mean displacement or
 rotation). Axial: ``du/dx = -N/EA``, relative to the nose.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
 
 from .case import Case
@@ -37,9 +41,9 @@ class StaticShape(NamedTuple):
     lateral : array
         Deflection up, relative to the mean axis [m].
     slope : array
-        Of the deflection [rad].
+        Turn of the sections [rad]: without shear, the slope of the deflection.
     moment : array
-        Bending moment EI u'' with the axial force on the bent axis [N m].
+        Bending moment EI theta' with the axial force on the bent axis [N m].
     axial : array
         Displacement aft relative to the nose [m].
     diverging : int
@@ -77,19 +81,42 @@ def static_shape(case: Case) -> StaticShape:
     beam = case.beam()
     x, k, t = _grid(beam)
     h = np.diff(x)
-    N = _mean(lambda s: beam.axial_force_at(k, t + s * h / np.diff(beam.x)[k]))
+
+    def mean(values: Callable[[Array], Array]) -> Array:
+        return _mean(lambda s: values(t + s * h / np.diff(beam.x)[k]))
+
+    N = mean(lambda at: beam.axial_force_at(k, at))
     inverse_EI, inverse_EA = (
-        _mean(lambda s, name=name: 1 / beam.column_at(name, k, t + s * h / np.diff(beam.x)[k]))
+        mean(lambda at, name=name: 1 / beam.column_at(name, k, at))  # type: ignore[misc]
         for name in ("bending_stiffness", "axial_stiffness")
     )
+    s, sN, sN2 = (mean(of) for of in _in_shear(beam, k))
     Q = case.loads.shear_force(x, "right")[:-1], case.loads.shear_force(x, "left")[1:]
-    theta, moment = _slope(h, N, inverse_EI, *Q)
-    rise = h * (theta[:-1] + theta[1:]) / 2 - h**2 / 12 * inverse_EI * np.diff(moment)
+    theta, moment = _slope(h, N + sN2, inverse_EI, *((1 + sN) * q for q in Q))
+    turn = h * (theta[:-1] + theta[1:]) / 2 - h**2 / 12 * inverse_EI * np.diff(moment)
+    rise = (1 + sN) * turn - s * h * (Q[0] + Q[1]) / 2
     u = np.concatenate([[0.0], np.cumsum(rise)])
-    mean, turn = _rigid_part(case, x, u)
+    shift, tilt = _rigid_part(case, x, u)
     axial = -np.concatenate([[0.0], np.cumsum(h * N * inverse_EA)])
-    lateral = u - mean - turn * (x - case.loads.x_M)
-    return StaticShape(x, lateral, theta - turn, moment, axial, _diverging(h, N, inverse_EI))
+    lateral = u - shift - tilt * (x - case.loads.x_M)
+    diverging = _diverging(h, N + sN2, inverse_EI)
+    return StaticShape(x, lateral, theta - tilt, moment, axial, diverging)
+
+
+def _in_shear(beam: Beam, k: Integers) -> tuple[Callable[[Array], Array], ...]:
+    """Return s, sN and sN^2 at fractions of intervals; nothing where the beam is rigid in shear."""
+
+    def flexibility(at: Array) -> Array:
+        if not beam.has_shear:
+            return np.zeros(len(k))
+        kGA = beam.column_at("shear_stiffness", k, at)
+        engesser = beam.shear_form == "engesser"
+        return np.asarray(1 / (kGA - beam.axial_force_at(k, at) if engesser else kGA))
+
+    def times(power: int) -> Callable[[Array], Array]:
+        return lambda at: np.asarray(flexibility(at) * beam.axial_force_at(k, at) ** power)
+
+    return flexibility, times(1), times(2)
 
 
 def deflection_warnings(case: Case, shape: StaticShape) -> list[str]:

@@ -8,7 +8,7 @@ from antinode.study.cases.values import case_of
 from antinode.vehicle.forces import forces_of
 from antinode.vehicle.load_warnings import validity_of
 from antinode.vehicle.loads import compute_loads
-from antinode.vehicle.many_beams import ManyBeams
+from antinode.vehicle.many_beams import ManyBeams, sheared_columns
 from antinode.vehicle.many_loads import loads_of_many
 from cli_run import replaced, run
 
@@ -153,7 +153,8 @@ def test_chains_are_those_of_the_beam(tmp_path, how):
             for k, i in enumerate(chains.rows):
                 table = (chains.length, chains.mass, chains.stiffness, chains.axial_force)
                 own = (v[k if len(v) > 1 else 0] for v in table)
-                batch = an.BeamBatch(*own, modes=3, following=chains.following[k])
+                more = sheared_columns({name: v[k] for name, v in chains.more.items()})
+                batch = an.BeamBatch(*own, modes=3, following=chains.following[k], **more)
                 hz = an.solve_many(batch).frequencies_hz[0]
                 exact = an.solve_modes(
                     case_of(case, numbers, int(i)), 3, tolerance=1e-10, families=["bending"]

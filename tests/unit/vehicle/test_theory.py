@@ -1,5 +1,6 @@
 """Vehicles with shear and rotary inertia: kGA and rho I from the stations, alone and in studies."""
 
+import pickle
 import re
 
 import numpy as np
@@ -148,3 +149,11 @@ def test_an_axial_force_beyond_the_shear_stiffness_has_no_beam(starter):
     cases = Cases(study, points.variables, values)
     with pytest.raises(an.InputError, match="N < kGA in Engesser's form"):
         cases.case(1).beam()
+
+
+def test_a_case_that_was_solved_can_be_sent_to_another_process(starter):
+    case = load(starter)
+    mass = case.loads.mass
+    again = pickle.loads(pickle.dumps(case))
+    assert again == case
+    assert again.loads.mass == mass
