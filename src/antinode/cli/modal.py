@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from antinode.show.outcome import check_plot, print_json, say_notes, say_written
+from antinode.show.outcome import check_plot, draw, print_json, say_notes, say_written
 
 from .options import Output, Solver
 
@@ -15,13 +16,14 @@ if TYPE_CHECKING:
     from antinode.vehicle.case import Case
 
 
-def check_modal_output(output: Output) -> None:
+def check_modal_output(output: Output, effects: Path | None = None) -> None:
     """Refuse what cannot be written before any work is done."""
     if output.file:
         from antinode.exchange.outputs import check_modal_output as check
 
         check(output.file)
     check_plot(output.plot)
+    check_plot(effects)
 
 
 def solve(problem: Case | BeamFile, solver: Solver) -> ModalResult:
@@ -38,6 +40,14 @@ def solve(problem: Case | BeamFile, solver: Solver) -> ModalResult:
         unloaded=True,
         damping=solver.damping,
     )
+
+
+def draw_effects(result: ModalResult, path: Path | None) -> None:
+    """Draw what each effect does, if that is asked for."""
+    if path:
+        from antinode.show.each_effect import each_effect, plot_each_effect
+
+        draw(plot_each_effect(each_effect(result)), path)
 
 
 def write_modes(output: Output, result: ModalResult, to_dict: Callable[[], dict[str, Any]]) -> None:

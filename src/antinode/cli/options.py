@@ -127,6 +127,15 @@ class Output:
     plot: Annotated[Path | None, option(OUTPUT, "Draw the result: .png, .svg or .pdf.")] = None
 
 
+Effects = Annotated[
+    Path | None,
+    option(
+        OUTPUT,
+        "Draw what each effect does to the bending modes, each solved with and without it: axial "
+        "force, ends that follow, shear, rotary inertia, foundation, added mass.",
+        "--effects",
+    ),
+]
 ReportFile = Annotated[
     Path, option(OUTPUT, "The report to write: .pdf or .html.", "-o", "--output")
 ]

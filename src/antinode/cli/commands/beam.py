@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from antinode.cli.modal import check_modal_output, solve, write_modes
-from antinode.cli.options import BeamSet, BucklingFactor, Output, Solver
+from antinode.cli.modal import check_modal_output, draw_effects, solve, write_modes
+from antinode.cli.options import BeamSet, BucklingFactor, Effects, Output, Solver
 from antinode.show.outcome import draw
 
 _SOLVER, _OUTPUT = Solver(), Output()
@@ -18,6 +18,7 @@ def beam(
     set_: BeamSet = (),
     solver: Solver = _SOLVER,
     buckling: BucklingFactor = False,
+    effects: Effects = None,
     output: Output = _OUTPUT,
 ) -> None:
     """Compute frequencies and modes of any beam, with no vehicle at all.
@@ -28,13 +29,14 @@ def beam(
     - Example: **antinode beam beam.toml**
     - Example: **antinode beam beam.toml --set beam.ends.left=pinned --plot beam.svg**
     - Example: **antinode beam beam.toml --buckling -o beam.csv**
+    - Example: **antinode beam beam.toml --effects effects.png**
 
     Parameters
     ----------
     file
         A beam file in TOML. 'antinode init --beam' writes one.
     """
-    check_modal_output(output)
+    check_modal_output(output, effects)
     from antinode.beam.file import load_beam
 
     result = solve(load_beam(file, set_), solver)
@@ -48,6 +50,7 @@ def beam(
         from antinode.show.figures import plot_modes
 
         draw(plot_modes(result), output.plot)
+    draw_effects(result, effects)
     write_modes(output, result, lambda: result.to_dict() | found)
     if not output.json:
         from antinode.show.printing import console, show_beam, show_buckling, show_modes

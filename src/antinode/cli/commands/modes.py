@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from antinode.cli.modal import check_modal_output, solve, write_modes
-from antinode.cli.options import Output, Set, Solver
+from antinode.cli.modal import check_modal_output, draw_effects, solve, write_modes
+from antinode.cli.options import Effects, Output, Set, Solver
 from antinode.show.outcome import draw
 
 _SOLVER, _OUTPUT = Solver(), Output()
 
 
 def modes(
-    case: Path, /, *, set_: Set = (), solver: Solver = _SOLVER, output: Output = _OUTPUT
+    case: Path,
+    /,
+    *,
+    set_: Set = (),
+    solver: Solver = _SOLVER,
+    effects: Effects = None,
+    output: Output = _OUTPUT,
 ) -> None:
     """Compute frequencies and modes of a vehicle in a condition: the main job.
 
@@ -23,13 +29,14 @@ def modes(
     - Example: **antinode modes case.toml**
     - Example: **antinode modes case.toml --set condition.speed=100m/s --plot modes.png**
     - Example: **antinode modes case.toml --modes 10 --json**
+    - Example: **antinode modes case.toml --effects effects.png**
 
     Parameters
     ----------
     case
         A case file: vehicle and condition in TOML. 'antinode init' writes one.
     """
-    check_modal_output(output)
+    check_modal_output(output, effects)
     from antinode.vehicle.case import load_case
 
     problem = load_case(case, set_)
@@ -38,6 +45,7 @@ def modes(
         from antinode.show.figures import plot_case
 
         draw(plot_case(problem, result), output.plot)
+    draw_effects(result, effects)
     if output.file or output.json:
         from antinode.show.loads_table import modes_dict
 
