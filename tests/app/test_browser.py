@@ -36,8 +36,8 @@ def assert_clean(tab, address):
 
 
 def test_the_first_view_shows_the_starter(tab, address):
-    assert tab.frequency(1) == "3.80058"
-    assert tab.frequency(6) == "65.3339"
+    assert tab.frequency(1) == "3.76703"
+    assert tab.frequency(6) == "58.1217"
     text = tab.page.locator(".an-at-vehicle").inner_html()
     for force in ("cavitator drag 13 kN", "planing lift 8.22 kN", "thrust 50 kN", "weight"):
         assert force in text
@@ -150,7 +150,7 @@ def test_dropped_files(tab, address, tmp_path):
     toast = tab.page.locator(".an-toast")
     toast.wait_for()
     assert "bad.toml: vehicle.name is 3" in toast.inner_text()
-    assert tab.frequency(1) == "3.80058"  # nothing has changed
+    assert tab.frequency(1) == "3.76703"  # nothing has changed
     toast.get_by_text("Close").click()
     toast.wait_for(state="detached")
     drop(tab, [tmp_path / "paper" / "case.toml"])
@@ -189,10 +189,10 @@ def test_two_sessions_do_not_touch_each_other(chromium, address):
     keyboard(one, "thrust", "ArrowRight", 20)
     keyboard(two, "thrust", "ArrowLeft", 20)
     for tab in (one, two):
-        tab.wait_for_change("3.80058")
+        tab.wait_for_change("3.76703")
         tab.page.wait_for_function("location.search.includes('thrust')")
         tab.settle()
-    assert float(one.frequency(1)) < 3.80058 < float(two.frequency(1))
+    assert float(one.frequency(1)) < 3.76703 < float(two.frequency(1))
     for tab in (one, two):
         assert_clean(tab, address)
         tab.page.close()
@@ -204,7 +204,7 @@ def test_modes_units_baseline_and_band(tab, address):
     tab.page.get_by_role("button", name="Longitudinal").click()
     tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '56.557'")
     tab.page.get_by_role("button", name="Bending").click()
-    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '3.80058'")
+    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '3.76703'")
     tab.page.get_by_label("Pin the frequencies").click()
     tab.page.wait_for_selector(".an-pinned")
     tab.page.get_by_label("from", exact=True).fill("18")
@@ -238,7 +238,7 @@ def test_the_table_of_stations(tab, address):
     tab.page.get_by_role("button", name="Undo").click()
     tab.page.get_by_role("button", name="Undo").click()
     tab.page.wait_for_selector(".an-main:not(.an-stale)")
-    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '3.80058'")
+    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '3.76703'")
     assert_clean(tab, address)
 
 
@@ -306,7 +306,7 @@ def test_rows_are_removed_where_they_were_clicked_and_pasted_as_one(tab, address
     has_text(tab, 2, "bending_stiffness", "1600")
     tab.page.get_by_role("button", name="Take back").click()
     tab.page.get_by_role("button", name="Close").click()
-    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '3.80058'")
+    tab.page.wait_for_function("document.querySelector('.an-hz:not(th)')?.innerText === '3.76703'")
     assert_clean(tab, address)
 
 
@@ -399,7 +399,7 @@ def test_axe_finds_nothing_wrong(chromium, address, dark, width):
 def test_a_phone_keeps_the_frequencies_in_sight(chromium, address):
     tab = Tab(chromium, address, width=390, height=844)
     strip = tab.page.locator(".an-strip")
-    assert strip.inner_text().split()[:3] == ["1", "3.80058", "Hz"]
+    assert strip.inner_text().split()[:3] == ["1", "3.76703", "Hz"]
     tab.page.mouse.wheel(0, 900)
     tab.page.wait_for_timeout(300)
     assert strip.bounding_box()["y"] >= 0

@@ -33,7 +33,7 @@ def beam_report(file: BeamFile, result: ModalResult, source: Source, command: st
     modes = sum(mode.number > 0 for mode in result.family(BENDING))
     moved = beam_influences(file, min(modes, _MOST_MODES), result.tolerance)
     sections = [
-        method_section(result.families, vehicle=False),
+        method_section(result.families, vehicle=False, sheared=result.beam.has_shear),
         *beam_inputs(file, beam),
         Section("Beam and axial force", tuple(_axial_force(beam))),
         frequency_section(result),

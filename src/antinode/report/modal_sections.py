@@ -59,8 +59,8 @@ def _frequency_table(modes: Sequence[Mode]) -> Table:
     rows = [_frequency_row(mode) for mode in modes]
     marked = [k for k, mode in enumerate(modes) if mode.number and mode.kind == "divergent"]
     return table(
-        "Modes in order of ω^2. The last column estimates what a beam with shear and rotary "
-        "inertia would find.",
+        "Modes in order of ω^2. The last column tells what shear and rotary inertia do: solved, or "
+        "estimated where the theory leaves them out.",
         head,
         rows,
         left=(0, 1),

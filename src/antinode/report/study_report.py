@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from antinode.beam.file import BeamFile
-from antinode.study.design.file import Study
+from antinode.study.design.file import Study, shear_output
 from antinode.study.design.points import Points, points_of
 from antinode.study.sensitivity.sensitivity import SensitivityResult, sensitivity
 from antinode.study.sweep.figures import plot_sweep
@@ -45,7 +45,11 @@ def study_report(study: Study, source: Source, command: str) -> tuple[Document, 
     told += warning_texts(found["warnings"], points.cases)
     uncertainty, left_out = _uncertainty(study)
     sections = [
-        method_section(study.solve.families, vehicle=isinstance(study.case, Case)),
+        method_section(
+            study.solve.families,
+            vehicle=isinstance(study.case, Case),
+            sheared=shear_output(study.case) == "effect_of_shear",
+        ),
         Section("The study", tuple(_study(study, found))),
         *_inputs(study.case),
         Section("Frequencies", tuple(_frequencies(study, points, data, found))),

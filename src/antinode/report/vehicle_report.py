@@ -32,7 +32,7 @@ def vehicle_report(case: Case, result: ModalResult, source: Source, command: str
     """Return the document on a case and its modes, solved with `unloaded=True`."""
     told = vehicle_warnings(case, result)
     sections = [
-        method_section(result.families, vehicle=True),
+        method_section(result.families, vehicle=True, sheared=result.beam.has_shear),
         *case_inputs(case),
         *load_sections(case, _loads_figure(case)),
         frequency_section(result),

@@ -37,6 +37,18 @@ _FAMILIES: Mapping[FamilyName, _Family] = {
     ),
 }
 
+_SHEARED = _Family(
+    "bending in one plane",
+    Equation(
+        runs("Y' = αψ − sQ, EIψ' = M, M' = αQ − (N + sN^2 + ω^2 ρI)ψ, Q' = ω^2 m Y"),
+        "Y' = alpha psi - s Q, quad E I psi' = M, quad "
+        "M' = alpha Q - (N + s N^2 + omega^2 rho I) psi, quad Q' = omega^2 m Y",
+    ),
+    "the turn ψ of the sections, bending stiffness EI, flexibility in shear s = 1/kGA (by Haringx; "
+    "1/(kGA − N) by Engesser), α = 1 + sN, rotary inertia per length ρI and mass per length m",
+)
+"""Bending where shear and rotary inertia are solved."""
+
 _SIGNS = (
     ("x", "m", "along the axis from the nose or the left end", "aft, to the right"),
     ("Y, X", "m", "lateral and axial displacement", "up; aft"),
@@ -52,16 +64,18 @@ _BEAM_SIGNS = 6
 """Of these, how many concern any beam."""
 
 
-def method_section(families: Sequence[FamilyName], *, vehicle: bool) -> Section:
-    """Return assumptions and conventions."""
-    return Section("Assumptions and conventions", tuple(_method(families, vehicle)))
+def method_section(families: Sequence[FamilyName], *, vehicle: bool, sheared: bool) -> Section:
+    """Return assumptions and conventions; `sheared` where shear and rotary inertia are solved."""
+    return Section("Assumptions and conventions", tuple(_method(families, vehicle, sheared)))
 
 
-def _method(families: Sequence[FamilyName], vehicle: bool) -> list[Block]:
-    told = [_FAMILIES[name] for name in families]
+def _method(families: Sequence[FamilyName], vehicle: bool, sheared: bool) -> list[Block]:
+    told = [_SHEARED if sheared and name == BENDING else _FAMILIES[name] for name in families]
     what = "vehicle is a straight free-free" if vehicle else "structure is a straight"
+    theory = "Timoshenko" if sheared else "Euler-Bernoulli"
+    why = _WHY_SOLVED[vehicle] if sheared else _WHY_LEFT_OUT
     first = (
-        f"The {what} Euler-Bernoulli beam under a static axial force N(x). "
+        f"The {what} {theory} beam under a static axial force N(x): {why}. "
         f"{_listed([family.name for family in told]).capitalize()} "
         f"{'are solved apart' if len(told) > 1 else 'is solved'}:"
     )
@@ -73,9 +87,9 @@ def _method(families: Sequence[FamilyName], vehicle: bool) -> list[Block]:
             "What is assumed:"
         ),
         bullets([*(_OF_A_VEHICLE if vehicle else _OF_A_BEAM), *_ALWAYS]),
-        paragraph("Not in the model: " + "; ".join(NOT_MODELLED) + "."),
+        paragraph("Not in the model: " + "; ".join(NOT_MODELLED[sheared:]) + "."),
         _sign_table(vehicle),
-        paragraph(_ERROR),
+        paragraph(_ERROR.format(part=_SOLVED if sheared else _ESTIMATED)),
         paragraph(_NAMES),
     ]
 
@@ -105,9 +119,18 @@ _ERROR = (
     "below any frequency follows from the solution itself (the counts), so that none is missing. "
     "A bracket encloses the root for the beam as divided into segments, rounding included. The "
     "error adds what dividing a beam that varies has cost: the frequency of the beam as given lies "
-    "within f ± error. Neither covers what the model leaves out; the column “shear, rot. "
-    "inertia” estimates that part to first order."
+    "within f ± error. Neither covers what the model leaves out; {part}."
 )
+_SOLVED = (
+    "the column “shear, rot. inertia” tells what these do, each mode solved with and without them"
+)
+_ESTIMATED = "the column “shear, rot. inertia” estimates what these would do"
+_WHY_SOLVED = {
+    True: "[model] theory says so, and shear and rotary inertia count by the columns of the "
+    "stations, or by EA as of a thin tube and by the hull",
+    False: "shear and rotary inertia are given, or follow from the sections",
+}
+_WHY_LEFT_OUT = "shear and rotary inertia are left out, and their effect is estimated"
 _NAMES = (
     "Names. Rigid modes have number 0 and are set aside by their index; the others are numbered "
     "1, 2, … in the order of ω^2, whatever its sign. A mode with ω^2 < 0 is divergent: it has no "

@@ -92,6 +92,10 @@ def show_left_out(out: Console, missing: Sequence[str]) -> None:
     out.print(f"[dim]Not in the model: {escape('; '.join(missing))}.[/dim]", highlight=False)
 
 
+THEORIES = {"timoshenko": "Timoshenko", "euler_bernoulli": "Euler-Bernoulli"}
+"""What theories are called."""
+
+
 def _theory_text(beam: Beam) -> str:
     """Name the theory where it is not Euler-Bernoulli's."""
     form = {"haringx": "Haringx", "engesser": "Engesser"}[beam.shear_form]
@@ -273,6 +277,7 @@ def _condition_text(case: Case) -> str:
         f"T = {c.thrust / 1e3:g} kN",
         f"fins at {c.fin_position:g} m" if case.vehicle.fins and c.fin_position is not None else "",
         end_force_text(case.model.follow),
+        THEORIES[case.model.theory],
         f"burnt {c.burn_fraction:.0%}" if len(case.vehicle.stations.mass_per_length) > 1 else "",
     ]
     return ", ".join(part for part in parts if part)
@@ -404,7 +409,8 @@ def show_beam(out: Console, beam: Beam) -> None:
     e = beam.ends
     out.print(
         f"[bold]{_plain(beam.name)}[/bold]  {beam.length:.5g} m, {beam.mass:.5g} kg, "
-        f"{counted(len(beam.x) - 1, 'interval')} ({beam.interpolation}), {e.left} - {e.right}",
+        f"{counted(len(beam.x) - 1, 'interval')} ({beam.interpolation}), {e.left} - {e.right}, "
+        f"{THEORIES['timoshenko' if beam.is_timoshenko else 'euler_bernoulli']}",
         highlight=False,
     )
     if beam.attachments:

@@ -88,13 +88,8 @@ class Case(CaseMethods, Frozen):
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader should know of choices that the file leaves open."""
-        if self.model.is_end_force_stated:
-            return ()
-        return (
-            "the file does not say what the end forces do, so thrust and the cavitator's drag turn "
-            "with the body; in earlier versions they kept their direction, which lowers the first "
-            'frequency: state [model] end_force = "follows_body" or "fixed_direction"',
-        )
+        told = {_ENDS: self.model.is_end_force_stated, _THEORY: self.model.is_theory_stated}
+        return tuple(note for note, stated in told.items() if not stated)
 
     def many(self, numbers: Numbers, cases: int) -> ManyCases:
         """Return cases that differ from this one in some numbers."""
@@ -114,6 +109,18 @@ class Case(CaseMethods, Frozen):
         with naming(f"at {self.condition.speed:g} m/s"):
             check_limits(beam)
         return beam
+
+
+_ENDS = (
+    "the file does not say what the end forces do, so thrust and the cavitator's drag turn "
+    "with the body; in earlier versions they kept their direction, which lowers the first "
+    'frequency: state [model] end_force = "follows_body" or "fixed_direction"'
+)
+_THEORY = (
+    "the file does not name the theory of the beam, so shear and rotary inertia are solved "
+    "(Timoshenko); in earlier versions they were left out, which raises the frequencies: state "
+    '[model] theory = "timoshenko" or "euler_bernoulli"'
+)
 
 
 def check_real(case: Case) -> Case:

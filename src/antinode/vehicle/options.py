@@ -73,9 +73,10 @@ class Model(Frozen):
         "stations as in eq. 22",
     )
     theory: Theory = Field(
-        default="euler_bernoulli",
+        default="timoshenko",
         description="of the beam: timoshenko counts shear, kGA of the stations or EA/(4 + 3 nu) as "
-        "of a thin tube of nu = 0.3, and the rotary inertia of hull or stations",
+        "of a thin tube of nu = 0.3, and the rotary inertia of hull or stations; euler_bernoulli "
+        "leaves both out, and their effect is estimated",
     )
     shear_form: ShearForm = Field(
         default="haringx", description="how the axial force and shear meet, in timoshenko's theory"
@@ -116,6 +117,11 @@ class Model(Frozen):
         given = self.cavitator_follows, self.thrust_follows
         nose, tail = (share if own is None else own for own in given)
         return nose, tail
+
+    @property
+    def is_theory_stated(self) -> bool:
+        """Whether the theory of the beam was named."""
+        return "theory" in self.model_fields_set
 
     @property
     def is_end_force_stated(self) -> bool:

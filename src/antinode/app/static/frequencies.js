@@ -23,8 +23,8 @@ export function frequencies(element) {
     row.append(cell);
   }
   row.querySelector(".an-shift").title = "change by the axial force";
-  row.querySelector(".an-error").title = "bound on the error [Hz], shear and rotary inertia left out";
-  row.querySelector(".an-shear").title = "shear and rotary inertia, left out: their effect to first order";
+  row.querySelector(".an-error").title = "bound on the error [Hz] of this model";
+  row.querySelector(".an-shear").title = "effect of shear and rotary inertia: solved, or estimated where the theory leaves them out";
   head.append(row);
   const rows = html("tbody");
   table.append(caption, head, rows);

@@ -40,7 +40,9 @@ HULL = 'inputs = [{ key = "radius", values = [1, 1.02] }, { key = "speed", value
 def case(tmp_path_factory):
     folder = tmp_path_factory.mktemp("shear")
     run("init", folder)
-    return an.load_case(folder / "case.toml", ["model.end_force=fixed_direction"])
+    return an.load_case(
+        folder / "case.toml", ["model.end_force=fixed_direction", "model.theory=euler_bernoulli"]
+    )
 
 
 def compared(case, text, every):

@@ -33,7 +33,7 @@ prior = { sd = "2 mm" }
 """
 TABLE = """# frequencies of the starter vehicle
 name, cavitator_angle [deg], mass_state, bending:1 [Hz], bending:2 [Hz], bending:3 [Hz]
-level, 10, , 3.248709, 10.504975, 20.666779
+level, 10, , 3.219179, 10.247941, 19.777385
 steep, 15, burnt, 3.592436, , 23.5
 """
 
@@ -150,9 +150,9 @@ IN_TABLE = {
     "column twice": ("bending:2", "bending:1", ["bending:1", "twice"]),
     "unit": ("bending:1 [Hz]", "bending:1 [kg]", ["Hz"]),
     "negative": ("23.5", "-3.2", ["observations.csv, row 2: bending 3 is", "greater than 0"]),
-    "text": ("3.248709", "about 3", ["about 3"]),
-    "infinite": ("3.248709", "inf", ["finite"]),
-    "cells": ("20.666779", "20.666779, 5", ["7 cells", "6 in the header"]),
+    "text": ("3.219179", "about 3", ["about 3"]),
+    "infinite": ("3.219179", "inf", ["finite"]),
+    "cells": ("19.777385", "19.777385, 5", ["7 cells", "6 in the header"]),
     "unknown state": ("burnt", "burned", ["burned", "burnt"]),
     "repeated": ("steep, 15, burnt, 3.592436, ", "steep, 10, , 3.592436, ", ["row 2", "row 1"]),
     "empty row": ("3.592436, , 23.5", ", ,", ["row 2", "no frequency"]),
