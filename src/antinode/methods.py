@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from .response.damping import Damping
     from .response.frequency import FrequencyResponse
     from .response.quantities import Drive, Output
-    from .show import cards, frames, plots
+    from .show.objects import cards, frames, plots
     from .stability.result import Stability
     from .study import cards as study_cards
     from .study import frames as study_frames
@@ -90,6 +90,7 @@ class SolvedMethods:
             *,
             damping: Damping = ...,
             tolerance: float = 1e-6,
+            backend: BackendName = "auto",
         ) -> FrequencyResponse: ...
 
         frequencies = frequencies.natural_frequencies
@@ -112,11 +113,11 @@ class BeamMethods(SolvedMethods):
         save = saving.save_beam
         _repr_html_ = cards.beam_card
     else:
-        plot = Method("show.plots", "beam_axes")
-        to_dataframe = Method("show.frames", "beam_frame")
+        plot = Method("show.objects.plots", "beam_axes")
+        to_dataframe = Method("show.objects.frames", "beam_frame")
         save = Method("exchange.saving", "save_beam")
-        _repr_html_ = Method("show.cards", "beam_card")
-        __repr__ = Method("show.lines", "beam_line")
+        _repr_html_ = Method("show.objects.cards", "beam_card")
+        __repr__ = Method("show.objects.lines", "beam_line")
 
 
 class CaseMethods(SolvedMethods):
@@ -130,11 +131,11 @@ class CaseMethods(SolvedMethods):
         _repr_html_ = cards.case_card
     else:
         statics = Method("vehicle.statics", "static_shape")
-        plot = Method("show.plots", "case_axes")
-        to_dataframe = Method("show.frames", "case_frame")
-        save = Method("show.frames", "save_loads")
-        _repr_html_ = Method("show.cards", "case_card")
-        __repr__ = __str__ = Method("show.lines", "case_line")
+        plot = Method("show.objects.plots", "case_axes")
+        to_dataframe = Method("show.objects.frames", "case_frame")
+        save = Method("show.objects.frames", "save_loads")
+        _repr_html_ = Method("show.objects.cards", "case_card")
+        __repr__ = __str__ = Method("show.objects.lines", "case_line")
 
 
 class LoadsMethods:
@@ -145,10 +146,10 @@ class LoadsMethods:
         to_dataframe = frames.loads_frame
         _repr_html_ = cards.loads_card
     else:
-        plot = Method("show.plots", "loads_axes")
-        to_dataframe = Method("show.frames", "loads_frame")
-        _repr_html_ = Method("show.cards", "loads_card")
-        __repr__ = Method("show.lines", "loads_line")
+        plot = Method("show.objects.plots", "loads_axes")
+        to_dataframe = Method("show.objects.frames", "loads_frame")
+        _repr_html_ = Method("show.objects.cards", "loads_card")
+        __repr__ = Method("show.objects.lines", "loads_line")
 
 
 class ModesMethods:
@@ -161,19 +162,19 @@ class ModesMethods:
         buckling = _buckling.buckling_of
         _repr_html_ = cards.modes_card
     else:
-        plot = Method("show.plots", "modes_axes")
-        to_dataframe = Method("show.frames", "modes_frame")
+        plot = Method("show.objects.plots", "modes_axes")
+        to_dataframe = Method("show.objects.frames", "modes_frame")
         save = Method("exchange.saving", "save_modes")
         buckling = Method("modes.buckling", "buckling_of")
-        _repr_html_ = Method("show.cards", "modes_card")
-        __repr__ = Method("show.lines", "modes_line")
+        _repr_html_ = Method("show.objects.cards", "modes_card")
+        __repr__ = Method("show.objects.lines", "modes_line")
 
 
 class ModeMethods:
     """Of `Mode`."""
 
     if not TYPE_CHECKING:
-        __repr__ = Method("show.lines", "mode_line")
+        __repr__ = Method("show.objects.lines", "mode_line")
 
 
 class StabilityMethods:
@@ -183,8 +184,8 @@ class StabilityMethods:
         to_dataframe = frames.stability_frame
         _repr_html_ = cards.stability_card
     else:
-        to_dataframe = Method("show.frames", "stability_frame")
-        _repr_html_ = Method("show.cards", "stability_card")
+        to_dataframe = Method("show.objects.frames", "stability_frame")
+        _repr_html_ = Method("show.objects.cards", "stability_card")
 
 
 class ResponseMethods:
@@ -196,11 +197,11 @@ class ResponseMethods:
         save = saving.save_response
         _repr_html_ = cards.response_card
     else:
-        plot = Method("show.plots", "response_axes")
-        to_dataframe = Method("show.frames", "response_frame")
+        plot = Method("show.objects.plots", "response_axes")
+        to_dataframe = Method("show.objects.frames", "response_frame")
         save = Method("exchange.saving", "save_response")
-        _repr_html_ = Method("show.cards", "response_card")
-        __repr__ = __str__ = Method("show.lines", "response_line")
+        _repr_html_ = Method("show.objects.cards", "response_card")
+        __repr__ = __str__ = Method("show.objects.lines", "response_line")
 
 
 class StudyMethods:

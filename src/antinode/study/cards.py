@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from antinode.show.cards import card, html_table
-from antinode.show.pictures import COLOURS, Picture, bars_picture
+from antinode.show.objects.cards import card, html_table
+from antinode.show.objects.pictures import COLOURS, Picture, bars_picture
 from antinode.text import counted
 
 from .design.points import points_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from antinode.show.frames import frame
+from antinode.show.objects.frames import frame
 
 from .identify.fitted_case import write_identification
 

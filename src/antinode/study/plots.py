@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from antinode.show.plots import AxesArray, axes_of
+from antinode.show.objects.plots import AxesArray, axes_of
 from antinode.show.style import PALETTE, on_screen, styled, zero_line
 
 from .sensitivity.command import tornado

@@ -15,10 +15,9 @@ from antinode.extras import import_extra
 from antinode.inputs.reading import COLUMN_UNITS
 from antinode.modes.dataset import SCALARS
 from antinode.modes.solve import beam_of
+from antinode.show.loads_table import internal_forces, loads_csv, loads_dataset, loads_dict
+from antinode.show.writing import write_result
 from antinode.vehicle.statics import static_shape
-
-from .loads_table import internal_forces, loads_csv, loads_dataset, loads_dict
-from .writing import write_result
 
 if TYPE_CHECKING:
     import pandas

@@ -14,10 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.modes.solve import beam_of
-
-from .figures import plot_beam, plot_forces, plot_loads, plot_modes
-from .response_figures import plot_response
-from .style import on_screen
+from antinode.show.figures import plot_beam, plot_forces, plot_loads, plot_modes
+from antinode.show.response_figures import plot_response
+from antinode.show.style import on_screen
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

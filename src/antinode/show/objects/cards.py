@@ -16,6 +16,8 @@ from antinode.beam.attachments import name_of
 from antinode.beam.checks import TABLES
 from antinode.inputs.reading import COLUMN_UNITS
 from antinode.modes.solve import beam_of
+from antinode.show.printing import end_force_text, mode_cells
+from antinode.show.response_table import scale_of
 from antinode.text import counted
 
 from .lines import about_beam, span_of
@@ -27,8 +29,6 @@ from .pictures import (
     loads_picture,
     modes_picture,
 )
-from .printing import end_force_text, mode_cells
-from .response_table import scale_of
 
 if TYPE_CHECKING:
     from antinode.beam.beam import Beam

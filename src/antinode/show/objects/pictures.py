@@ -16,8 +16,7 @@ import numpy.typing as npt
 
 from antinode.beam.attachments import name_of
 from antinode.beam.families import FAMILIES
-
-from .sketch import thickness
+from antinode.show.sketch import thickness
 
 if TYPE_CHECKING:
     from antinode.beam.beam import Beam
