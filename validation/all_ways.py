@@ -250,8 +250,9 @@ def study_rows(number=64):
             [sys.executable, "-m", "antinode", "init", "--example", "sweep", folder],
             check=True, capture_output=True,
         )  # fmt: skip
-        # counts tell nothing of ends that follow: validation/following.py has those
-        case = an.load_case(Path(folder) / "case.toml", ["model.end_force=fixed_direction"])
+        # the reference is a beam of Euler and Bernoulli whose ends keep their direction
+        pinned = ["model.end_force=fixed_direction", "model.theory=euler_bernoulli"]
+        case = an.load_case(Path(folder) / "case.toml", pinned)
     made = Study.model_validate(
         {**tomllib.loads(STUDY.replace("NUMBER", str(number))), "case": case}
     )

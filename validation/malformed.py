@@ -58,7 +58,8 @@ KEYS = {
     "gravity_rise", "gravity_rise_length", "gravity_rise_factor", "distortion",
     "distortion_factor", "fin_immersion", "fin_lift", "planing", "planing_angle",
     "planing_direction_width", "end_force", "torsional_stiffness", "polar_inertia_per_length",
-    "left_torsion", "right_torsion", "torsional", "polar_inertia",
+    "left_torsion", "right_torsion", "torsional", "polar_inertia", "theory", "shear_form",
+    "hydrodynamic_stiffness",
 }  # fmt: skip
 
 

@@ -41,7 +41,6 @@ def test_the_first_view_shows_the_starter(tab, address):
     text = tab.page.locator(".an-at-vehicle").inner_html()
     for force in ("cavitator drag 13 kN", "planing lift 8.22 kN", "thrust 50 kN", "weight"):
         assert force in text
-    assert "shear and rotary inertia" in tab.page.locator(".an-notes").inner_text()
     assert_clean(tab, address)
 
 
@@ -125,7 +124,7 @@ def test_a_field_takes_units_and_says_what_is_wrong(tab, address):
     tab.set_field("speed [m/s]", "360 km/h")
     tab.wait_for_change(before)
     tab.settle()
-    assert tab.frequency(1) == "3.80045"
+    assert tab.frequency(1) == "3.76675"
     field = tab.page.get_by_label("speed [m/s]").and_(tab.page.locator("input"))
     tab.page.wait_for_function("document.querySelector('.an-input input').value === '100'")
     tab.set_field("speed [m/s]", "50 kg")
@@ -134,7 +133,7 @@ def test_a_field_takes_units_and_says_what_is_wrong(tab, address):
     assert "condition.speed is '50 kg'; 'kg' is no unit of m/s" in message.inner_text()
     assert field.get_attribute("aria-invalid") == "true"
     assert "an-stale" in tab.page.locator(".an-main").get_attribute("class")
-    assert tab.frequency(1) == "3.80045"  # the last good result stays
+    assert tab.frequency(1) == "3.76675"  # the last good result stays
     tab.page.get_by_role("button", name="Undo").click()
     tab.page.wait_for_selector(".an-main:not(.an-stale)")
     message.wait_for(state="hidden")

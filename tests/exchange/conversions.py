@@ -1,5 +1,6 @@
 """Beams to convert, and how far two beams are apart."""
 
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -41,6 +42,12 @@ def everything():
 def solved(name, modes=3):
     """Modes of an example."""
     beam = everything() if name == "everything" else example(name)
+    return solve_modes(beam, modes, tolerance=1e-7, unloaded=True)
+
+
+def without_shear(name, modes=3):
+    """Modes of an example by Euler and Bernoulli, as elements without shear find them."""
+    beam = replace(example(name), theory=None, shear_stiffness=None, rotary_inertia_per_length=None)
     return solve_modes(beam, modes, tolerance=1e-7, unloaded=True)
 
 

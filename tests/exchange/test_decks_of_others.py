@@ -176,7 +176,9 @@ class TestOffsets:
     def test_masses_count_with_their_centre(self, tmp_path):
         bars = self.BARS.format(0.3, 0.0)
         beam, _ = read(tmp_path, GRIDS, bars, PBAR, MAT1, CLAMP, "CONM2,9,3,,4.,.1,.3\n")
-        assert beam.attachments == (PointMass(2.0, 4.0, 0.0, pytest.approx(0.1)),)
+        (mass,) = beam.attachments
+        assert mass == PointMass(2.0, 4.0, 0.0, mass.offset)
+        assert mass.offset == pytest.approx(0.1)
         with pytest.raises(InputError, match="off the axis"):
             read(tmp_path, GRIDS, bars, PBAR, MAT1, CLAMP, "CONM2,9,3,,4.\n")
 
@@ -206,7 +208,8 @@ def test_a_mass_on_an_arm_and_springs_by_their_cards(tmp_path):
     )
     beam, _ = read(tmp_path, GRIDS, BARS, PBAR, MAT1, CLAMP, cards)
     mass, lateral, bush = beam.attachments
-    assert mass == PointMass(2.0, 5.0, 0.3, pytest.approx(0.4))
+    assert mass == PointMass(2.0, 5.0, 0.3, mass.offset)
+    assert mass.offset == pytest.approx(0.4)
     assert (lateral, bush) == (Spring(1.0, 4e3), Spring(1.0, 7e3))
     rbar = cards.replace("RBE2,20,3,123456,9", "RBAR,20,3,9,123456")
     assert read(tmp_path, GRIDS, BARS, PBAR, MAT1, CLAMP, rbar)[0].attachments == beam.attachments

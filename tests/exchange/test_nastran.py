@@ -15,7 +15,7 @@ from antinode.exchange.nastran.reader import read_nastran
 from antinode.exchange.nastran.writer import nastran_text, write_nastran
 from antinode.exchange.units import MM_T_S, SI
 from cli_run import refused, run
-from exchange.conversions import solved
+from exchange.conversions import solved, without_shear
 from exchange.deck_solver import Deck
 from exchange.solvers import expected, worst
 
@@ -69,7 +69,8 @@ ANALYSES.remove(("shaft", "statsub"))
 @pytest.mark.parametrize(("name", "analysis"), ANALYSES)
 def test_finite_elements_find_the_expected_frequencies(name, analysis, tmp_path):
     path = tmp_path / "deck.bdf"
-    write_nastran(path, solved(name), SI, analysis)
+    result = without_shear(name) if name == "starter" else solved(name)
+    write_nastran(path, result, SI, analysis)
     for rows, found in families(path, 2 if analysis == "statsub" else 1):
         assert worst(found, rows) < 2e-6
 

@@ -185,8 +185,8 @@ def check_shear(beam: Beam) -> None:
         form = "N < kGA in Engesser's form" if engesser else "kGA + N > 0 in Haringx' form"
         raise InputError(
             f"axial_force is {N[row, at]:.4g} N in interval {row + 1}, where shear_stiffness is "
-            f"{kGA[row, at]:.4g} N; {form} of shear: check both, or set shear_form = "
-            f"'{'haringx' if engesser else 'engesser'}'"
+            f"{kGA[row, at]:.4g} N; {form} of shear: check the units of both, or set "
+            f"shear_form = '{'haringx' if engesser else 'engesser'}'"
         )
 
 

@@ -47,6 +47,7 @@ _SHEARED = _Family(
     "the turn ψ of the sections, bending stiffness EI, flexibility in shear s = 1/kGA (by Haringx; "
     "1/(kGA − N) by Engesser), α = 1 + sN, rotary inertia per length ρI and mass per length m",
 )
+_SHEARED_FAMILIES: Mapping[FamilyName, _Family] = {**_FAMILIES, BENDING: _SHEARED}
 """Bending where shear and rotary inertia are solved."""
 
 _SIGNS = (
@@ -70,7 +71,7 @@ def method_section(families: Sequence[FamilyName], *, vehicle: bool, sheared: bo
 
 
 def _method(families: Sequence[FamilyName], vehicle: bool, sheared: bool) -> list[Block]:
-    told = [_SHEARED if sheared and name == BENDING else _FAMILIES[name] for name in families]
+    told = [(_SHEARED_FAMILIES if sheared else _FAMILIES)[name] for name in families]
     what = "vehicle is a straight free-free" if vehicle else "structure is a straight"
     theory = "Timoshenko" if sheared else "Euler-Bernoulli"
     why = _WHY_SOLVED[vehicle] if sheared else _WHY_LEFT_OUT

@@ -11,6 +11,12 @@ FIXED = ["--set", "model.end_force=fixed_direction", "--set", "model.theory=eule
 FEW = ["--modes", "3"]
 
 
+@pytest.fixture(autouse=True)
+def wide(monkeypatch):
+    """A terminal on which headings stand in full."""
+    monkeypatch.setenv("COLUMNS", "120")
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("water")

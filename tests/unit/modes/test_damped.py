@@ -32,6 +32,12 @@ rotational_damping = "-1 N m s/rad"
 """
 
 
+@pytest.fixture(autouse=True)
+def wide(monkeypatch):
+    """A terminal on which headings stand in full."""
+    monkeypatch.setenv("COLUMNS", "120")
+
+
 @pytest.fixture
 def beam():
     one = np.ones(3)

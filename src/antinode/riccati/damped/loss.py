@@ -3,16 +3,16 @@ r"""Stiffness that loses energy: complex eigenvalues followed from those without
 With loss factors the stiffness is K + i H, and H at most eta times the elastic energy. As H grows
 from nothing no eigenvalue crosses a circle on which
 
-    beta(s) = eta w || P^(1/2) A(s)^-1 P^(1/2) || < 1,   P = K_base + sigma M
+    beta(s) = eta w norm(P^(1/2) A(s)^-1 P^(1/2)) < 1,   P = K_base + sigma M
 
 because there ``A(s) + i t H`` is singular for no t in 0 ... 1, if w P is no less than the elastic
 energy: if ``(1 - 1/w)`` of that with all springs and the axial force has no eigenvalue below
 -sigma, which a count tells. A is the base chain with what acts besides (`damped.ratio`), so that
 with R the inverse of the base chain's and b_i unit forces
 
-    A^-1 = R - R b Z (I + G Z)^-1 b^T R,   || P^(1/2) R P^(1/2) || = max (l_k + sigma)/|l_k - l|
+    A^-1 = R - R b Z (I + G Z)^-1 b^T R,   norm(P^(1/2) R P^(1/2)) = max (l_k + sigma)/abs(l_k - l)
 
-    || P^(1/2) R b_i ||^2 = T_i = Im(l G_ii)/Im l + sigma S_i
+    norm(P^(1/2) R b_i)^2 = T_i = Im(l G_ii)/Im l + sigma S_i
 
 The circle holds as many eigenvalues as without loss, which is proven. For a real s loss by a factor
 has no meaning: there the change of s counts as an error.
