@@ -7,7 +7,10 @@ then they are identified from the plain starter vehicle. A parameter counts as i
 the data halve its prior's standard deviation. Its true value should lie in the 95 % interval in
 90 to 99 % of all pairs of a twin and such a parameter.
 
-    python validation/identification.py --twins 40 --seed 2026
+The end forces follow the body, keep their direction, or turn with it by shares of which that of the
+thrust is unknown as well:
+
+    python validation/identification.py --twins 40 --seed 2026 --ends follows_body
 """
 
 import argparse
@@ -56,6 +59,22 @@ DISTRIBUTIONS = (
 )
 
 
+ENDS = {
+    "follows_body": (["model.end_force=follows_body"], ()),
+    "fixed_direction": (["model.end_force=fixed_direction"], ()),
+    "shares": (
+        ["model.thrust_follows=0.8", "model.cavitator_follows=0.9"],
+        ({"key": "model.thrust_follows", "prior": {"sd": 0.05}},),
+    ),
+}
+"""By name: what the file says of the end forces, and what is unknown besides."""
+TITLES = {
+    "follows_body": "Thrust and cavitator follow",
+    "fixed_direction": "Fixed directions",
+    "shares": "Shares that follow, that of the thrust unknown",
+}
+
+
 class Pair(NamedTuple):
     """A parameter of a twin, as it is and as found."""
 
@@ -73,17 +92,17 @@ class Pair(NamedTuple):
         return self.low <= self.true <= self.high
 
 
-def starter(folder):
+def starter(folder, ends="follows_body"):
     """The starter vehicle."""
     import antinode as an
     from antinode.examples import write_example
 
     write_example("starter", folder)
-    return an.load_case(folder / "case.toml")
+    return an.load_case(folder / "case.toml", ENDS[ends][0])
 
 
-def problem(case, frequencies=None):
-    """The identification of a twin, given its frequencies."""
+def problem(case, frequencies=None, more=()):
+    """The identification of a twin, given its frequencies, with more unknowns."""
     import antinode as an
 
     if frequencies is None:
@@ -95,21 +114,24 @@ def problem(case, frequencies=None):
     return an.IdentificationProblem(
         case=case,
         observations=rows,
-        parameters=PARAMETERS,
+        parameters=(*PARAMETERS, *more),
         distributions=DISTRIBUTIONS,
         fit={"relative_sd": NOISE},
     )
 
 
-def draw(case, seed, twin):
+def draw(case, seed, twin, more=()):
     """True vector of a twin and its noisy frequencies; drawn again where the vehicle cannot be."""
     import antinode as an
     from antinode.study.identify.identification import prepare
 
-    misfit = prepare(problem(case))
+    misfit = prepare(problem(case, more=more))
     random = np.random.default_rng([seed, twin])
     while True:
         vector = misfit.unknowns.start + random.normal(size=len(misfit.unknowns.items))
+        low, high = misfit.unknowns.bounds
+        if np.any((vector < low) | (vector > high)):
+            continue
         try:
             found = misfit.evaluate(vector)
         except an.AntinodeError:
@@ -119,12 +141,12 @@ def draw(case, seed, twin):
         return misfit.unknowns.values(vector), noisy
 
 
-def identify_twin(case, seed, twin):
+def identify_twin(case, seed, twin, more=()):
     """Pairs of one twin, and the result of its identification."""
     import antinode as an
 
-    true, frequencies = draw(case, seed, twin)
-    result = an.identify(problem(case, frequencies))
+    true, frequencies = draw(case, seed, twin, more)
+    result = an.identify(problem(case, frequencies, more))
     pairs = [
         Pair(twin, p.name, float(t), p.value, *p.interval, p.sd, p.determined)
         for p, t in zip(result.parameters, true, strict=True)
@@ -137,21 +159,30 @@ def identifiable(pairs):
     return [pair for pair in pairs if pair.determined >= IDENTIFIABLE]
 
 
-def record(pairs, results, seed, seconds):
-    """The record as Markdown."""
-    known = identifiable(pairs)
-    coverage = np.mean([p.covered for p in known])
-    costs = [2 * r.cost / (len(r.comparisons)) for r in results]
-    seconds_each, calls = [r.seconds for r in results], [r.evaluations for r in results]
+def heading():
+    """What all twins have in common, as Markdown."""
     lines = [
         "# Coverage of the intervals of identified parameters",
         "",
         " ".join(__doc__.split("\n\n")[1].split("\n")),
         "",
+    ]
+    return "\n".join(lines)
+
+
+def record(pairs, results, seed, seconds, ends):
+    """The record of twins of one kind of end forces, as Markdown."""
+    known = identifiable(pairs)
+    coverage = np.mean([p.covered for p in known])
+    costs = [2 * r.cost / (len(r.comparisons)) for r in results]
+    seconds_each, calls = [r.seconds for r in results], [r.evaluations for r in results]
+    lines = [
+        f"## {TITLES[ends]}",
+        "",
         f"- {datetime.date.today()}, Python {platform.python_version()}, "
         f"antinode {version('antinode')}, numpy {version('numpy')}, scipy {version('scipy')}",
-        f"- command: `python validation/identification.py --twins {len(results)} --seed {seed}`, "
-        f"{seconds:.0f} s in one process",
+        f"- command: `python validation/identification.py --twins {len(results)} --seed {seed} "
+        f"--ends {ends}`, {seconds:.0f} s in one process",
         f"- {len(results)} twins, {len(known)} pairs of a twin and an identifiable parameter "
         f"(of {len(pairs)})",
         f"- **95 % intervals hold the truth in {coverage:.1%}** (90 to 99 % allowed)",
@@ -174,18 +205,28 @@ def record(pairs, results, seed, seconds):
     return "\n".join(lines) + "\n"
 
 
+def kept(path, ends, text):
+    """The whole record, with the part of these end forces replaced and the others as they are."""
+    old = path.read_text() if path.exists() else ""
+    parts = {p.split("\n")[0]: p for p in old.split("\n## ")[1:]}
+    parts[TITLES[ends]] = text.removeprefix("## ")
+    known = [parts[title].strip() for title in TITLES.values() if title in parts]
+    return "\n\n## ".join([heading().strip(), *known]) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--twins", type=int, default=40)
     parser.add_argument("--seed", type=int, default=2026)
+    parser.add_argument("--ends", choices=ENDS, default="follows_body")
     parser.add_argument("-o", "--output", type=Path, default=Path(__file__).with_suffix(".md"))
     options = parser.parse_args()
-    start = time.perf_counter()
+    start, more = time.perf_counter(), ENDS[options.ends][1]
     pairs, results = [], []
     with tempfile.TemporaryDirectory() as folder:
-        case = starter(Path(folder))
+        case = starter(Path(folder), options.ends)
         for twin in range(options.twins):
-            found, result = identify_twin(case, options.seed, twin)
+            found, result = identify_twin(case, options.seed, twin, more)
             pairs += found
             results.append(result)
             known = identifiable(found)
@@ -194,8 +235,8 @@ def main():
                 f"{len(known)} covered, {result.evaluations} evaluations, {result.seconds:.1f} s",
                 file=sys.stderr,
             )
-    text = record(pairs, results, options.seed, time.perf_counter() - start)
-    options.output.write_text(text)
+    text = record(pairs, results, options.seed, time.perf_counter() - start, options.ends)
+    options.output.write_text(kept(options.output, options.ends, text))
     print(text)
     coverage = np.mean([p.covered for p in identifiable(pairs)])
     return 0 if BOUNDS[0] <= coverage <= BOUNDS[1] else 1

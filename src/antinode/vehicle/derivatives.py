@@ -384,6 +384,13 @@ class EigenvalueDerivatives:
         return share * self.modes.by_following[side] if share and self._bends else 0.0
 
     @property
+    def by_share(self) -> Array:
+        """By the shares of drag and thrust that turn with nose and tail, shape (2, k)."""
+        forces = np.array([self.loads.F_CX, self.loads.thrust])[:, None]
+        none = np.zeros((2, len(self.modes.omega2)))
+        return forces * self.modes.by_following if self._bends else none
+
+    @property
     def _bends(self) -> bool:
         return self.modes.chain.law.has_axial_force
 

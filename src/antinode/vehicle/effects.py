@@ -49,6 +49,7 @@ _OF_SHEAR = (
 """Columns that kGA and rho I may follow from, besides those of the hull."""
 _BURN = ("condition", "burn_fraction")
 _THRUST = ("condition", "thrust")
+_SHARES = ("model", "cavitator_follows"), ("model", "thrust_follows")
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,8 @@ class Effect:
     row : (str, int) or None
         A column of the stations and its row, which the number is.
     forces : tuple of ForceChange
+    share : {0, 1} or None
+        The share of the force at nose (0) or tail (1) that turns with it, which the number is.
     mass : MassChange or None
     shear : ShearChange or None
     """
@@ -71,6 +74,7 @@ class Effect:
     thrust: float = 0.0
     row: tuple[str, int] | None = None
     forces: tuple[ForceChange, ...] = ()
+    share: int | None = None
     mass: MassChange | None = None
     shear: ShearChange | None = None
 
@@ -82,6 +86,8 @@ class Effect:
             total = total + by_rows(self.case, column, sensitivity)[row]
         for change in self.forces:
             total = total + sensitivity.by_force(change)
+        if self.share is not None:
+            total = total + sensitivity.by_share[self.share]
         if self.mass:
             total = total + sensitivity.by_mass(self.mass)
         if self.shear:
@@ -112,6 +118,8 @@ def effects_between(case: Case, place: Place, values: Sequence[float]) -> list[E
     keys = place.keys
     if keys == _THRUST:
         return [Effect(case, thrust=1.0)] * (len(values) - 1)
+    if keys in _SHARES:
+        return [Effect(case, share=_SHARES.index(keys))] * (len(values) - 1)
     if keys[:2] == _STATIONS and keys[2] not in _OF_HULL:
         row = _column(keys[2:-1]), int(keys[-1])
         return [Effect(case, row=row)] * (len(values) - 1)

@@ -52,6 +52,8 @@ EVERYTHING = {
         {"key": "fins.0.tip_radius"},
         {"key": "fins.0.position", "start": "5.1 m"},
         {"key": "model.gravity_rise_factor"},
+        {"key": "model.thrust_follows"},
+        {"key": "model.cavitator_follows"},
         {"key": "vehicle.stations.axial_stiffness.9"},
         {"key": "extra_drag", "start": "0.5 kN", "per_row": True},
     ],
@@ -95,7 +97,8 @@ def differences(misfit, vector, entry):
     [("step", "exact"), ("step", "element_midpoint"), ("linear", "exact"), ("log", "exact")],
 )
 def test_the_jacobian_is_that_of_the_whole_computation(folder, interpolation, axial_force):
-    chosen = [f"vehicle.interpolation={interpolation}", f"model.axial_force={axial_force}"]
+    shares = ["model.thrust_follows=0.9", "model.cavitator_follows=0.8"]
+    chosen = [f"vehicle.interpolation={interpolation}", f"model.axial_force={axial_force}", *shares]
     misfit = everything(an.load_case(folder / "case.toml", chosen))
     random = np.random.default_rng(3)
     vector = misfit.unknowns.start * (1 + 2e-3 * random.normal(size=len(misfit.unknowns.items)))
