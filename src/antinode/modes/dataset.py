@@ -23,7 +23,7 @@ SCALARS: tuple[tuple[str, str, str], ...] = (
     ("growth_rate_per_s", "1/s", "growth rate of a divergent mode; NaN where omega2 >= 0"),
     ("modal_mass", "kg", "integral of m Y^2 of the shape as normalised"),
     ("shift", "1", "relative change of the frequency by the axial force"),
-    ("model_error", "1", "first-order relative effect of shear and rotary inertia"),
+    ("model_error", "1", "estimated relative effect of shear and rotary inertia"),
     ("effect_of_shear", "1", "relative effect of shear and rotary inertia, solved"),
 )
 """Numbers of a mode by their attributes, with unit and meaning."""

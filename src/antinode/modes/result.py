@@ -34,7 +34,8 @@ Normalisation = Literal["amplitude", "mass"]
 Damping = Literal["auto", "none", "complex"]
 
 NOT_MODELLED = (
-    "shear deformation and rotary inertia (their effect is estimated to first order)",
+    "shear deformation and rotary inertia (their effect is estimated, with kGA = EA/4.9 of a "
+    "thin-walled tube where none is given: kappa = 0.53)",
     "added mass of wetted parts",
     "damping",
     "shell modes of the wall",
@@ -86,8 +87,10 @@ class Mode(ModeMethods, ByValue):
     residual : float
         Relative difference of the Rayleigh quotient of the shape from omega2.
     model_error : float or None
-        First-order relative effect of shear and rotary inertia on the frequency (negative: they
-        lower it); None where they are solved, where the beam does not tell, and for rigid modes.
+        Estimated relative effect of shear and rotary inertia on the frequency (negative: they
+        lower it; -1: past buckling with shear), with kGA = EA/4.9 where none is given, that of a
+        thin-walled tube; None where they are solved, where the beam does not tell, and for rigid
+        modes.
     effect_of_shear : float or None
         What they do to the frequency where they are solved: f/f_EB - 1, at the same axial force.
         None in Euler-Bernoulli's theory, for rigid modes, and past buckling.

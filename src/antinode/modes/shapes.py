@@ -6,9 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from antinode.arrays import Array, Integers
+from antinode.arrays import Array, Integers, Numbers
 from antinode.beam.beam import Beam
-from antinode.beam.families import FAMILIES
+from antinode.beam.families import FAMILIES, FamilyName
+from antinode.beam.sections.shapes import THIN_TUBE
 from antinode.riccati.chain import Chain
 from antinode.riccati.laws import Columns, Units
 from antinode.riccati.roots import Eigenvalue
@@ -194,57 +195,109 @@ def _first_extremum_signs(Y: Array, largest: Array) -> Array:
 
 
 class ModelErrorParts(NamedTuple):
-    """What a beam without shear and rotary inertia leaves out, to first order.
+    """What shear and rotary inertia would do to a beam that is solved without them.
 
-    The relative effect on a frequency is ``-(rotary + shear / omega^2) / 2``.
+    With the shapes of that beam, all three over its modal mass,
+
+        K = int EI Y''^2 + springs,   S = int (EI Y''')^2 / kGA,   R = int rho I Y'^2,
+
+    what bends and what shears give way in series, K becomes K/(1 + S/K), sections turn by
+    1/(1 + S/K) of the slope, and what the axial force does, W = K - omega^2, stays:
+
+        omega^2 -> (K - W (1 + S/K)) / (1 + S/K + R).
+
+    Without axial force that is ``f -> f / sqrt(1 + R + S/omega^2)``, and to first order
+    ``-(R + S/omega^2)/2`` of f with it too. A pinned uniform beam buckles by it at
+    ``P_E/(1 + P_E/kGA)`` (Engesser), whatever R is; its frequencies are exact but for a term in
+    S R.
+
+    kGA is the beam's own column, or EA/(4 + 3 nu) with nu = 0.3, that of a thin-walled tube
+    (Cowper, J. Appl. Mech. 33 (1966) 335): kappa = 0.53. Solid sections have 0.85 to 0.89. rho I
+    is the beam's column, or m r^2 with the radius of gyration, or with sqrt(EI/EA).
     """
 
     rotary: Array
-    """int m r^2 theta^2 / int m Y^2 [-]"""
+    """R [-]"""
     shear: Array
-    """int M'^2/(kGA) / int m Y^2 [rad^2/s^2]"""
+    """S [rad^2/s^2]"""
+    strain: Array
+    """K [rad^2/s^2]"""
+
+    def ratio(self, omega2: Numbers) -> Numbers:
+        """Return omega^2 with shear and rotary inertia over omega^2; below 0 past buckling."""
+        with np.errstate(all="ignore"):
+            bent = np.real(self.strain) > 0
+            series = 1 + np.where(bent, self.shear / np.where(bent, self.strain, 1.0), 0.0)
+            return np.asarray((series - self.shear / omega2) / (series + self.rotary))
 
     def effect(self, omega2: Array) -> Array:
-        """Return the relative effect on the frequencies; NaN where a mode does not vibrate."""
+        """Return the relative effect on the frequencies; NaN where a mode does not vibrate.
+
+        -1 where no frequency is left: the mode is past buckling with shear.
+        """
         with np.errstate(all="ignore"):
-            effect = -(self.rotary + self.shear / omega2) / 2
+            effect = np.sqrt(np.maximum(self.ratio(omega2), 0.0)) - 1
         return np.asarray(np.where(omega2 > 0, effect, np.nan))
 
 
-def model_error_parts(beam: Beam, chain: Chain, energies: Energies) -> ModelErrorParts:
-    """Return the share of every segment in both parts, shape (n, modes), of a beam with EA.
+def can_estimate(beam: Beam, family: FamilyName) -> bool:
+    """Tell whether there is something to estimate in a family, and the columns to do it with."""
+    known = beam.axial_stiffness is not None or beam.shear_stiffness is not None
+    return FAMILIES[family].rotary and known and not beam.has_shear
 
-    The shear stiffness is that of a thin-walled tube, kGA = EA / (4 (1 + nu)) with nu = 0.3; the
-    radius of gyration is the beam's, or sqrt(EI/EA).
-    """
-    assert beam.axial_stiffness is not None
+
+def model_error_parts(beam: Beam, chain: Chain, energies: Energies) -> ModelErrorParts:
+    """Return the share of every segment in R, S and K, shape (n, modes)."""
+    EI, kGA, rotary = _columns(beam, chain)
+    squares = energies.squares
+    parts = (
+        rotary[:, None] * squares.turn,
+        squares.shear / kGA[:, None],
+        squares.moment / EI[:, None],
+    )
+    return ModelErrorParts(*(part / energies.mass for part in parts))
+
+
+def _columns(beam: Beam, chain: Chain) -> tuple[Array, Array, Array]:
+    """Return EI, kGA and what of rho I is left out, of every segment."""
     middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2 + beam.x[0]
-    k = np.clip(np.searchsorted(beam.x, middle) - 1, 0, len(beam.x) - 2)
+    k: Integers = np.clip(np.searchsorted(beam.x, middle) - 1, 0, len(beam.x) - 2)
     t = (middle - beam.x[k]) / np.diff(beam.x)[k]
-    EA = beam.column_at("axial_stiffness", k, t)
-    if beam.radius_of_gyration is not None:
-        r2 = beam.column_at("radius_of_gyration", k, t) ** 2
+    EI, mass = chain.stiffness, beam.column_at("mass_per_length", k, t)
+    EA = None if beam.axial_stiffness is None else beam.column_at("axial_stiffness", k, t)
+    if beam.shear_stiffness is not None and not beam.is_timoshenko:
+        kGA = beam.column_at("shear_stiffness", k, t)
     else:
-        r2 = chain.stiffness / EA
-    kGA = EA / (4 * 1.3)
-    rotary = (chain.mass * r2)[:, None] * energies.squares.turn
-    shear = energies.squares.shear / kGA[:, None]
-    return ModelErrorParts(rotary / energies.mass, shear / energies.mass)
+        kGA = np.full(len(k), np.inf) if EA is None else EA / THIN_TUBE
+    if beam.is_timoshenko:
+        rotary = np.zeros(len(k))
+    elif beam.rotary_inertia_per_length is not None:
+        rotary = beam.column_at("rotary_inertia_per_length", k, t)
+    elif beam.radius_of_gyration is not None:
+        rotary = mass * beam.column_at("radius_of_gyration", k, t) ** 2
+    else:
+        rotary = np.zeros(len(k)) if EA is None else mass * EI / EA
+    return EI, kGA, rotary
+
+
+def model_error_sums(beam: Beam, chain: Chain, energies: Energies) -> ModelErrorParts:
+    """Return R, S and K of whole modes, shape (modes,), springs and joints among K."""
+    by_segment = model_error_parts(beam, chain, energies)
+    rotary, shear, strain = (part.sum(axis=0) for part in by_segment)
+    if chain.points and not chain.follows:
+        work = chain.columns["axial_force"] @ energies.squares.turn
+        strain = (energies.stiffness + work) / energies.mass
+    return ModelErrorParts(rotary, shear, strain)
 
 
 def estimate_model_errors(
     beam: Beam, chain: Chain, omega2: Array, energies: Energies
 ) -> list[float | None]:
-    """Return the first-order effect of rotary inertia and shear on each frequency, relative."""
-    if not FAMILIES[chain.family].rotary or beam.axial_stiffness is None:
+    """Return the estimated effect of rotary inertia and shear on each frequency, relative."""
+    if not can_estimate(beam, chain.family):
         return [None] * len(omega2)
-    if beam.has_shear:
-        return [None] * len(omega2)
-    by_segment = model_error_parts(beam, chain, energies)
-    parts = ModelErrorParts(*(part.sum(axis=0) for part in by_segment))
-    if beam.is_timoshenko:
-        parts = parts._replace(rotary=0 * parts.rotary)
-    effect = parts.effect(omega2)
-    if np.iscomplexobj(effect):  # a mode that flutters: not of first order in one frequency
-        effect = np.where(effect.imag == 0.0, effect.real, np.nan)
+    sums = model_error_sums(beam, chain, energies)
+    vibrates = np.imag(omega2) == 0  # one that flutters is no estimate of one frequency
+    real = ModelErrorParts(*(np.real(part) for part in sums))
+    effect = np.where(vibrates, real.effect(np.real(omega2)), np.nan)
     return [None if np.isnan(e) else e for e in effect.tolist()]

@@ -18,12 +18,10 @@ from antinode.arrays import Array, Interpolation
 from antinode.beam.checks import ShearForm
 from antinode.beam.mass import MassDistribution
 from antinode.beam.profile import Profile
+from antinode.beam.sections.shapes import THIN_TUBE
 
 from .options import Model
 from .vehicle import Vehicle
-
-THIN_TUBE = 4 + 3 * 0.3
-"""EA/kGA of a thin tube of nu = 0.3."""
 
 Column = Callable[[str], Array | None]
 """A column of the stations by its name, (rows,) or (cases, rows); None where there is none."""

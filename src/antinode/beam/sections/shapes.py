@@ -15,6 +15,9 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
+THIN_TUBE = 4 + 3 * 0.3
+"""EA/kGA of a thin-walled tube of nu = 0.3 (Cowper): kappa = 2 (1 + nu)/(4 + 3 nu) = 0.53."""
+
 
 class Shape(Protocol):
     """A kind of cross-section.

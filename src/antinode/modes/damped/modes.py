@@ -16,7 +16,12 @@ from antinode.beam.families import FAMILIES, FamilyName
 from antinode.modes.backends import Backend
 from antinode.modes.result import Kind, Mode, Normalisation, Solution
 from antinode.modes.rigid import centre_of_mass, rigid_rotation, rotary_inertia
-from antinode.modes.shapes import model_error_parts, normalising_factors, on_grid
+from antinode.modes.shapes import (
+    can_estimate,
+    model_error_sums,
+    normalising_factors,
+    on_grid,
+)
 from antinode.riccati.chain import Chain
 from antinode.riccati.damped.chain import Damped
 from antinode.riccati.damped.energies import Products, products
@@ -193,20 +198,19 @@ def _right_and_left(
 
 
 def _effect_of_shear(beam: Beam, chain: Chain, s: Complex, forms: Products | None) -> Array:
-    """Return the first-order effect of shear and rotary inertia on each frequency; NaN if unknown.
+    """Return the estimated effect of shear and rotary inertia on each frequency; NaN if unknown.
 
-    They change s by ``-w^T (s^2 dM + dK) v``, of which the imaginary part counts.
+    With the products of left and right eigenvectors, over ``w^T (M + C/(2 s)) v``, the estimate
+    takes ``-s^2`` for omega^2; of the s that follows the imaginary part counts.
     """
-    known = FAMILIES[chain.law.name].rotary and beam.axial_stiffness is not None
-    if forms is None or not known or beam.has_shear:
+    if forms is None or not can_estimate(beam, chain.family):
         return np.full(len(s), np.nan)
     with np.errstate(all="ignore"):
         mass: Numbers = forms.mass + forms.damping / (2 * s)
         energies = Energies(forms.squares, mass, forms.stiffness, np.abs(mass))
-        parts = model_error_parts(beam, chain, energies)
-        rotary = 0.0 if beam.is_timoshenko else parts.rotary.sum(axis=0)
-        moved = -(rotary - parts.shear.sum(axis=0) / (s * s)) / 2 * s
-        return np.where(s.imag > 0, moved.imag / s.imag, np.nan)
+        parts = model_error_sums(beam, chain, energies)
+        moved = s * np.sqrt(parts.ratio(-s * s).astype(complex))
+        return np.where(s.imag > 0, moved.imag / s.imag - 1, np.nan)
 
 
 def _rigid_names(rest: AtRest, chain: Chain) -> list[str]:

@@ -19,7 +19,6 @@ from antinode.modes.warnings import (
     PUSHED_ON,
     ROTATION_DIVERGES,
     ROTATION_NOT_TURNED_BACK,
-    SHEAR_BEYOND,
     SHEAR_BUCKLES,
     SHEAR_LOWERS,
     left_out,
@@ -45,7 +44,6 @@ _RECOGNISED = (
     (NEUTRAL, f"some modes: {NEUTRAL}"),
     (SHEAR_LOWERS, f"some modes: {SHEAR_LOWERS}"),
     (SHEAR_BUCKLES, f"some modes: {SHEAR_BUCKLES}"),
-    (SHEAR_BEYOND, f"some modes: {SHEAR_BEYOND}"),
 )
 """Sentences of `solve_modes`, and what is said of many cases."""
 
@@ -98,5 +96,5 @@ def _of_quick(beam: Beam, solved: Solved) -> list[str]:
         if np.any(np.abs(effect) > MODEL_LIMIT):
             told.append(SHEAR_LOWERS)
         if np.any(shear_buckles(effect)):
-            told.append(SHEAR_BEYOND if beam.is_unloaded else SHEAR_BUCKLES)
+            told.append(SHEAR_BUCKLES)
     return [_recognised(each, ()) for each in told]

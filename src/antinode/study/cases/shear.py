@@ -1,12 +1,9 @@
 """What shear and rotary inertia would do to the bending frequencies of the cases of a chunk.
 
-To first order a frequency changes by ``-(R + S / omega^2) / 2`` of itself (`modes/shapes.py`), with
-
-    R = int m r^2 Y'^2 / int m Y^2,      S = int (EI)^2 Y'''^2 / (kGA) / int m Y^2.
-
-Shapes cost more than frequencies: they are computed for 16 cases, spread evenly over the mean of
-N/EI, and give weights for every interval of the stations. Between these cases the weights are
-interpolated; EI, EA, r and the mass are those of the case itself.
+The estimate of `modes/shapes.py` asks for three integrals of each mode. Shapes cost more than
+frequencies: they are computed for 16 cases, spread evenly over the mean of N/EI, and give weights
+for every interval of the stations. Between these cases the weights are interpolated; EI, EA, r and
+the mass are those of the case itself.
 """
 
 from __future__ import annotations
@@ -35,7 +32,7 @@ _ENTRIES = 1_000_000  # of the weights that are held at once
 
 
 def model_errors(cases: Cases, beams: CaseBeams, family: FamilyName, found: Eigenvalues) -> Array:
-    """Return the first-order effect on every frequency of a family, relative, (cases, modes).
+    """Return the estimated effect on every frequency of a family, relative, (cases, modes).
 
     NaN where a mode diverges, in families and cases that have none, and where the law has them.
     """
@@ -70,19 +67,19 @@ def _spread(rows: Integers, load: Array) -> Integers:
 
 
 def _sums(at: Array, weights: Array, load: Array, factors: Array) -> Array:
-    """Return the sums of weights times factors over the intervals, shape (2, cases, modes).
+    """Return the sums of weights times factors over the intervals, shape (3, cases, modes).
 
     Parameters
     ----------
     at : array, shape (sample,)
         Loads of the sample, which ascend.
-    weights : array, shape (2, sample, modes, intervals)
+    weights : array, shape (3, sample, modes, intervals)
         What is interpolated over the loads.
     load : array, shape (cases,)
-    factors : array, shape (2, cases, 1, intervals)
+    factors : array, shape (3, cases, 1, intervals)
     """
     known = np.flatnonzero(np.isfinite(weights).all(axis=(0, 2, 3)))
-    found = np.full((2, len(load), weights.shape[2]), np.nan)
+    found = np.full((3, len(load), weights.shape[2]), np.nan)
     if not len(known):
         return found
     place = np.interp(load, at[known], np.arange(len(known)))
@@ -99,7 +96,7 @@ def _sums(at: Array, weights: Array, load: Array, factors: Array) -> Array:
 
 @dataclass(frozen=True)
 class _Bodies:
-    """What R and S go with, of all cases: one value for each interval of the stations.
+    """What R, S and K go with, of all cases: one value for each interval of the stations.
 
     Attributes
     ----------
@@ -127,12 +124,13 @@ class _Bodies:
         return np.asarray(whole[:, :-1] if stepped else (whole[:, :-1] + whole[:, 1:]) / 2)
 
     def factors(self, rows: Integers) -> Array:
-        """Return what the weights of some cases are multiplied by, (2, rows, 1, intervals)."""
+        """Return what the weights of some cases are multiplied by, (3, rows, 1, intervals)."""
         EI, EA = (self.column(name)[rows] for name in ("bending_stiffness", "axial_stiffness"))
         stations = self.cases.study.vehicle_case.vehicle.stations
         given = stations.radius_of_gyration is not None or stations.wall is not None
         rotary = np.ones(EI.shape) if given else EI / EA
-        return np.stack([rotary, EI**2 / EA / self.mass[rows, None]])[:, :, None]
+        mass = self.mass[rows, None]
+        return np.stack([rotary, EI**2 / EA / mass, EI / mass])[:, :, None]
 
     def beams(self, rows: Integers) -> dict[bytes, Beam | None]:
         """Return the bodies of some cases as beams without loads, by their structures.
@@ -152,11 +150,11 @@ class _Bodies:
 
 
 def _weights(bodies: _Bodies, beams: CaseBeams, sample: Integers, omega2: Array) -> Array:
-    """Return R and S of some cases by interval over their factors, (2, sample, modes, intervals).
+    """Return R, S and K of some cases over their factors, (3, sample, modes, intervals).
 
     NaN where the shapes fail.
     """
-    found = np.full((2, len(sample), omega2.shape[1], len(bodies.x) - 1), np.nan)
+    found = np.full((3, len(sample), omega2.shape[1], len(bodies.x) - 1), np.nan)
     place = {row: at for at, row in enumerate(sample.tolist())}
     bare = bodies.beams(sample)
     for chains in beams.chains(sample, 1):
@@ -168,14 +166,14 @@ def _weights(bodies: _Bodies, beams: CaseBeams, sample: Integers, omega2: Array)
 
 
 def _parts(body: Beam, chain: Chain, omega2: Array, stations: Array) -> Array:
-    """Return R and S of one case by interval of the stations, shape (2, modes, intervals)."""
+    """Return R, S and K of one case by interval of the stations, shape (3, modes, intervals)."""
     compiled = choose("numba")
     try:
         states = compiled.mode_states(chain, omega2, np.ones(len(omega2), dtype=np.int64))
         energies = energies_of_modes(compiled, chain, states, omega2)
         parts = model_error_parts(body, chain, energies)
     except (ArithmeticError, ValueError):
-        return np.full((2, len(omega2), len(stations) - 1), np.nan)
+        return np.full((3, len(omega2), len(stations) - 1), np.nan)
     middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2
     first = np.searchsorted(middle, stations[:-1])
     return np.stack([np.add.reduceat(part, first, axis=0).T for part in parts])

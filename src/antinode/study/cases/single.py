@@ -16,7 +16,7 @@ from antinode.modes.following import energies_of_modes
 from antinode.modes.frequencies import natural_frequencies
 from antinode.modes.hertz import error_hz, growth_rate, hertz
 from antinode.modes.rigid import pivot_of, rigid_modes, rigid_rotation, turns_freely
-from antinode.modes.shapes import estimate_model_errors
+from antinode.modes.shapes import can_estimate, estimate_model_errors
 from antinode.modes.solve import solve_modes
 from antinode.riccati.roots import CountingError
 from antinode.riccati.shapes import split_for
@@ -118,9 +118,8 @@ def _by_modes(beam: Beam, family: FamilyName, modes: int, tolerance: float) -> S
 
 
 def model_error(beam: Beam, family: FamilyName, omega2: Array) -> Array:
-    """Return the first-order effect of what the model leaves out on each frequency, relative."""
-    told = FAMILIES[family].rotary and beam.axial_stiffness is not None and not beam.has_shear
-    if not told:
+    """Return the estimated effect of what the model leaves out on each frequency, relative."""
+    if not can_estimate(beam, family):
         return np.full(len(omega2), np.nan)
     compiled = choose("numba")
     try:

@@ -58,7 +58,9 @@ solve.modes = 2
 def case(tmp_path_factory):
     folder = tmp_path_factory.mktemp("warned")
     run("init", folder)
-    return an.load_case(folder / "case.toml", ["model.end_force=fixed_direction"])
+    return an.load_case(
+        folder / "case.toml", ["model.end_force=fixed_direction", "model.theory=euler_bernoulli"]
+    )
 
 
 def told(dataset, i):
