@@ -17,7 +17,7 @@ from .damping import Damping
 from .equipment import Verdict, items_of
 from .file import Problem
 from .frequency import Model
-from .modal import Basis, basis, fixed_direction, modes_below
+from .modal import Basis, basis, modes_below, orthogonal, without_orthogonality
 from .modal_sum import modal_response
 from .numbers import plain
 from .peaks import Peak, find_peaks, with_resonances
@@ -146,9 +146,9 @@ def bases(
 ) -> tuple[Basis, ...]:
     """Return all modes up to a frequency, as a basis, of each family that is driven.
 
-    Where an end force follows they are those of a force of fixed direction: near by.
+    Where an end force follows, or something feeds back, they are those of a beam near by.
     """
-    beam = fixed_direction(beam)
+    beam = orthogonal(beam)
     families = dict.fromkeys(drive.family for drive in drives)
     return tuple(
         basis(beam, f, modes_below(beam, f, _ABOVE * highest_hz) + 1, drives, outputs, damping)
@@ -158,10 +158,11 @@ def bases(
 
 def resonance_warnings(beam: Beam, modes: tuple[Basis, ...], low: float, high: float) -> list[str]:
     """Say which modes in a band have no damping, and if peaks are looked for by others near by."""
-    if any(beam.ends.follow):
+    why = without_orthogonality(beam)
+    if why:
         return [
-            "the force of an end turns with it: the response is exact, but peaks are looked for by "
-            "the modes of a force of fixed direction, and named by them; a narrow one may be missed"
+            f"{why}: the response is exact, but peaks are looked for by the modes of a beam "
+            "without that, and named by them; a narrow one may be missed"
         ]
     names = [
         name

@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from antinode.arrays import Array, Integers
+from antinode.beam.attachments import Dashpot, PointFeedback, Spring
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.beam.representation import own_loss
@@ -90,7 +91,7 @@ def modes_below(
 ) -> int:
     """Return how many modes lie below a frequency, about: by the count of a coarse chain."""
     omega2 = (2 * np.pi * frequency_hz) ** 2
-    beam = fixed_direction(beam)
+    beam = orthogonal(beam)
     chain = beam.chain(family)
     if np.any(beam.varies(family)):
         waves = float(np.sum(chain.law.oscillation(chain, omega2) * chain.length)) / np.pi
@@ -98,11 +99,40 @@ def modes_below(
     return int(choose(backend).evaluate(chain, [omega2]).below[0])
 
 
-def fixed_direction(beam: Beam) -> Beam:
-    """Return a beam whose end forces keep their direction."""
-    if not any(beam.ends.follow):
+def without_orthogonality(beam: Beam) -> str:
+    """Say why the modes of a beam are not orthogonal; nothing where they are."""
+    reasons = []
+    if any(beam.ends.follow):
+        reasons.append("the force of an end turns with it")
+    if any(isinstance(item, PointFeedback) for item in beam.attachments):
+        reasons.append("a feedback acts, as the water's stiffness does")
+    return ", and ".join(reasons)
+
+
+def orthogonal(beam: Beam) -> Beam:
+    """Return a beam near by whose modes are orthogonal.
+
+    End forces keep their direction; of a feedback what holds and damps each freedom by itself
+    stays, as a spring and a dashpot.
+    """
+    if not without_orthogonality(beam):
         return beam
-    return replace(beam, ends=replace(beam.ends, left_follower=0.0, right_follower=0.0))
+    ends = replace(beam.ends, left_follower=0.0, right_follower=0.0)
+    feedback = [item for item in beam.attachments if isinstance(item, PointFeedback)]
+    others = tuple(item for item in beam.attachments if not isinstance(item, PointFeedback))
+    parts = [part for item in feedback for part in _held_by(item)]
+    return replace(beam, ends=ends, attachments=others).with_attachments(*parts)
+
+
+def _held_by(item: PointFeedback) -> tuple[Spring, Dashpot]:
+    """Return what a feedback does to each freedom by itself, where it holds and damps it."""
+    (held, turned), (drag, turning) = (
+        np.maximum(np.diag(matrix), 0.0).tolist() for matrix in (item.stiffness, item.damping)
+    )
+    return (
+        Spring(item.x, translational=held, rotational=turned),
+        Dashpot(item.x, translational=drag, rotational=turning),
+    )
 
 
 def solved_modes(beam: Beam, family: FamilyName, modes: int) -> ModalResult:
@@ -143,13 +173,15 @@ def basis(
     Raises
     ------
     InputError
-        If the force of an end turns with it: such modes are no basis.
+        If the force of an end turns with it, or something feeds back: such modes are no basis.
     """
-    if any(beam.ends.follow):
+    why = without_orthogonality(beam)
+    if why:
         raise InputError(
-            "the force of an end turns with it: its modes are not orthogonal, and no sum of them "
-            "is a response; ask for a harmonic or random one with a loss factor, or set "
-            "left_follower and right_follower to 0"
+            f"{why}: the modes are not orthogonal, and no sum of them is a response; ask for a "
+            "harmonic or random one with a loss factor, or leave that out: left_follower and "
+            'right_follower 0, point feedback; of a vehicle end_force = "fixed_direction", '
+            'hydrodynamic_stiffness = "none"'
         )
     result = solved_modes(beam, family, modes)
     found = result.family(family)
