@@ -28,6 +28,10 @@ FASTEST, SLOWEST = 14e3, 20.0
 STOUTEST, SLENDEREST = 0.5, 1e-4
 """Radius of gyration sqrt(EI/EA) over the length: half of it; and that of a wire, which hangs."""
 
+MOST_STRAIN = 0.1
+"""abs(N)/EA beyond which a beam is hardly one: metals yield below 0.01."""
+_GRAVITY_MM = 9806.65  # mm/s^2
+
 _MEANT = "if it is meant so, ignore this"
 
 
@@ -45,13 +49,14 @@ def doubts(beam: Beam) -> list[str]:
     """
     per_length = beam.mass / beam.length
     own = replace(beam, attachments=()).mass / beam.length if beam.attachments else per_length
-    pulled = [*_weight_from_clamp(beam), *_springs_that_push(beam)]
+    pulled = [*_weight_from_clamp(beam), *_gravity_in_mm(beam), *_springs_that_push(beam)]
     EI = 1 / _mean_compliance(beam, "bending_stiffness")
     if beam.axial_stiffness is None:
         alone = _bending_alone(beam, np.sqrt(EI / per_length), np.sqrt(EI / own))
         return [*pulled, *alone]
     EA = 1 / _mean_compliance(beam, "axial_stiffness")
-    speeds = _wave_speed(float(np.sqrt(EA / per_length)), float(np.sqrt(EA / own)))
+    speeds = list(_wave_speed(float(np.sqrt(EA / per_length)), float(np.sqrt(EA / own))))
+    speeds += [] if speeds else _strain(beam)
     return [*pulled, *speeds, *_slenderness(beam, float(np.sqrt(EI / EA)))]
 
 
@@ -117,6 +122,31 @@ def _wave_speed(loaded: float, bare: float) -> Iterator[str]:
             f"a wave runs along this beam at sqrt(EA/m) = {bare:.3g} m/s, slower than in soft "
             "rubber (steel 5,100 m/s): check the units of axial_stiffness [N, not kN or MN] and "
             "mass_per_length [kg/m]; " + _MEANT
+        )
+
+
+def _strain(beam: Beam) -> Iterator[str]:
+    """Doubt what the axial force does to the length."""
+    k = np.arange(len(beam.x) - 1)
+    ends = [np.full(len(k), t) for t in (0.0, 1.0)]
+    N = np.array([beam.axial_force_at(k, t) for t in ends])
+    strain = np.abs(N) / np.array([beam.column_at("axial_stiffness", k, t) for t in ends])
+    side, row = np.unravel_index(np.argmax(strain), strain.shape)
+    if strain[side, row] > MOST_STRAIN:
+        yield (
+            f"the axial force of {N[side, row]:.4g} N at x = {beam.x[row + side]:g} m strains the "
+            f"beam by N/EA = {strain[side, row]:.0%}, which hardly any material bears (metals "
+            "yield below 1%): check the units of axial_force [N] and axial_stiffness [N]; " + _MEANT
+        )
+
+
+def _gravity_in_mm(beam: Beam) -> Iterator[str]:
+    """Doubt an axial acceleration that is gravity's in mm/s^2."""
+    a = beam.axial_acceleration
+    if abs(abs(a) - _GRAVITY_MM) < 0.005 * _GRAVITY_MM:
+        yield (
+            f"the axial acceleration of {a:.6g} m/s^2 is that of gravity in mm/s^2: gravity is "
+            "9.80665 [m/s^2]; " + _MEANT
         )
 
 

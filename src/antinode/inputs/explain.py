@@ -129,6 +129,11 @@ def _sentence(model: type[BaseModel], key: str, problem: Problem) -> str:
         return f"{key} is missing; add it ('antinode schema' lists every key with its unit)"
     if kind == "extra_forbidden":
         return f"unknown key {short(key)[1:-1]}; {_suggestion(model, problem['loc'])}"
+    if kind in _NO_LIST and isinstance(problem["input"], Mapping) and _of_tables(model, problem):
+        return (
+            f"{key} is one table, but there may be several: write [[{key}]], in double brackets, "
+            "above each"
+        )
     if kind == "value_error":
         return f"{key}: {context['error']}" if key else str(context["error"])
     if kind in _ALLOWED:
@@ -138,6 +143,18 @@ def _sentence(model: type[BaseModel], key: str, problem: Problem) -> str:
     return f"{key or 'this'} is {short(problem['input'])}; {say}"
 
 
+def _of_tables(model: type[BaseModel], problem: Problem) -> bool:
+    """Tell whether the place of a problem wants a list of tables."""
+    inner: type[BaseModel] | None = model
+    for part in problem["loc"]:
+        field = None if inner is None else _fields(inner).get(str(part))
+        if field is None:
+            return False
+        inner = _inner_model(field.annotation)
+    return inner is not None
+
+
+_NO_LIST = ("tuple_type", "list_type")
 _LIST = "it must be a list of at least one entry: write [ ... ], or [[...]] for tables"
 _TABLE = "it must be a table of keys: correct it"
 _WHOLE = "it must be a whole number: correct it"

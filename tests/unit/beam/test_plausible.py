@@ -2,13 +2,14 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from antinode import Beam, Ends, solve_modes
 from antinode.beam.attachments import PointMass, Spring
-from antinode.beam.axial import AxialLoads, apply_loads
+from antinode.beam.axial import AxialLoads, PointForce, apply_loads
 from antinode.beam.plausible import doubts
 from cli_run import run
 
@@ -176,3 +177,28 @@ def test_a_last_row_of_a_table_in_csv(tmp_path):
     assert "bending_stiffness stays 7 up to the end, not 3 N m^2" in " ".join(ended.out.split())
     path.write_text(rows + "7\n")
     assert "is not used" not in run("beam", path, "--modes", "1").out
+
+
+@pytest.mark.parametrize("ends", [CLAMPED, Ends("free", "free"), Ends("pinned", "pinned")])
+@pytest.mark.parametrize("how", ["column", "force", "tension"])
+def test_strains_beyond_any_material_are_doubted(how, ends):
+    """A force in N where EA is in kN; loads and columns, compression and tension."""
+    plain = bar(**POLYMER, EA=1e-3, EI=1e3, ends=ends)  # c = 45 m/s: no other doubt
+    EA = float(plain.axial_stiffness[0, 0])
+    for share, told in ((0.05, False), (0.3, True)):
+        if how == "force":
+            loads = AxialLoads(point_forces=(PointForce(0.25, share * EA),))
+            loaded = apply_loads(plain, loads) if ends is CLAMPED else None
+        else:
+            sign = -1.0 if how == "tension" else 1.0
+            N = np.full_like(plain.axial_force, sign * share * EA)
+            loaded = replace(plain, axial_force=N)
+        if loaded is not None:
+            assert any("N/EA" in text for text in doubts(loaded)) == told
+
+
+@pytest.mark.parametrize(("gravity", "told"), [(9806.65, True), (9810.0, True), (981.0, False)])
+def test_gravity_in_millimetres_is_doubted(gravity, told):
+    for sign in (1.0, -1.0):
+        loaded = apply_loads(bar(**PILE), AxialLoads(gravity=sign * gravity))
+        assert any("mm/s^2" in text for text in doubts(loaded)) == told

@@ -51,7 +51,12 @@ IN_BEAM_FILES = [
     ("[beam.ends]", "[ends]", "did you mean beam.ends?"),
     ('"linear"', '"Linear"', "did you mean 'linear'?"),
     ("[[beam.point_masses]]", "[[beam.point_mass]]", "did you mean point_masses?"),
-    ("[[beam.point_masses]]", "[beam.point_masses]", "[[...]] for tables"),
+    (
+        "[[beam.point_masses]]",
+        "[beam.point_masses]",
+        "write [[beam.point_masses]], in double brackets",
+    ),
+    ("[[beam.springs]]", "[beam.springs]", "write [[beam.springs]]"),
     ("[[beam.point_masses]]", "[[point_masses]]", "did you mean beam.point_masses?"),
     ("x = 4\n", "x = 5\n", "off the beam, which runs from 0 to 4 m"),
     ("mass = 5", 'mass = "5 N"', "'N' is no unit of kg"),
