@@ -250,8 +250,6 @@ def show_condition(out: Console, case: Case) -> None:
         f"{loads.checks.worst:.0e}",
         highlight=False,
     )
-    for note in case.notes:
-        out.print(f"[dim]note:[/dim] {escape(note)}", highlight=False)
 
 
 def _drag_text(case: Case) -> str:
@@ -352,6 +350,8 @@ def show_loads(out: Console, case: Case, shape: StaticShape) -> None:
     from .loads_table import BRIEF_HEADINGS, EXPLANATION, HEADINGS, loads_warnings
 
     show_condition(out, case)
+    for note in case.notes:
+        out.print(f"[dim]note:[/dim] {escape(note)}", highlight=False)
     out.print(_forces_table(case))
     choices = ((HEADINGS, 4), (HEADINGS, 2), (BRIEF_HEADINGS, 2))
     out.print(fitting((_internal_table(case, shape, *choice) for choice in choices), out))
