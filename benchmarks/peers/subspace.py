@@ -14,8 +14,25 @@ from .hermite import COLUMNS, MASS_ROWS, band, sides
 VECTORS, SWEEPS = 13, 2
 
 
+def _place(x):
+    """Y and its derivatives by x at a share x of an element of length 1, by its four unknowns."""
+    return [
+        [1 - 3 * x**2 + 2 * x**3, x - 2 * x**2 + x**3, 3 * x**2 - 2 * x**3, x**3 - x**2],
+        [6 * x**2 - 6 * x, 1 - 4 * x + 3 * x**2, 6 * x - 6 * x**2, 3 * x**2 - 2 * x],
+        [12 * x - 6, 6 * x - 4, 6 - 12 * x, 6 * x - 2],
+        [12, 6, -12, 6],
+    ]
+
+
+PLACES = np.array(_place(0.0) + _place(0.5))
+
+
 class Subspace:
     """Solver that keeps its vectors from call to call."""
+
+    columns, mass_rows, elastic = COLUMNS, MASS_ROWS, 4
+    """Of the elements: their tables, and how many columns of `sides` do not vibrate."""
+    sides = staticmethod(sides)
 
     def __init__(self, segments, vectors=VECTORS, sweeps=SWEEPS):
         self.sweeps = sweeps
@@ -26,13 +43,13 @@ class Subspace:
     def restart(self):
         self.X = self.start
 
-    def omega2(self, h, m, EI, N, modes):
+    def omega2(self, h, m, EI, N, modes, *more):
         """The lowest elastic omega^2 of a free-free beam, its two rigid modes set aside."""
-        M, S = self.mass, sides(h, m, EI, N)
-        np.matmul(S[:, 4:], MASS_ROWS, out=M.data.reshape(-1, 12))
+        M, S = self.mass, self.sides(h, m, EI, N, *more)
+        np.matmul(S[:, self.elastic :], self.mass_rows, out=M.data.reshape(-1, 12))
         shift = 20 * N.max() / (m.sum() * h * len(m) * h)  # above the rotation's -omega^2
-        S[:, 4:] *= shift
-        factor, failed = lapack.dpbtrf(band(S, COLUMNS), overwrite_ab=1)
+        S[:, self.elastic :] *= shift
+        factor, failed = lapack.dpbtrf(band(S, self.columns), overwrite_ab=1)
         assert not failed
         F = M @ self.X
         Z, MZ, mass = _sweep(factor, M, F)
@@ -45,6 +62,15 @@ class Subspace:
         assert not failed
         self.X = Z @ Q
         return values[2 : 2 + modes] - shift
+
+    def states(self, h, EI, N, modes):
+        """Y, h theta, M and M' + N theta of the modes found last at left nodes and in middles."""
+        u = self.X[:, 2 : 2 + modes].reshape(-1, 2, modes)
+        z = np.matmul(PLACES, np.concatenate([u[:-1], u[1:]], axis=1)).reshape(-1, 2, 4, modes)
+        z[:, :, 2] *= (EI / h**2)[:, None, None]
+        z[:, :, 3] *= (EI / h**3)[:, None, None]
+        z[:, :, 3] += z[:, :, 1] * (N / h)[:, None, None]
+        return z
 
 
 def _sweep(factor, M, F):

@@ -9,6 +9,7 @@ from benchmarks.beams import LENGTH, MODES, SEGMENTS, smooth_case, steep_station
 from benchmarks.peers import dense, figures, hp, packages
 from benchmarks.peers.reduced_basis import ReducedBasis
 from benchmarks.peers.subspace import Subspace
+from benchmarks.peers.timoshenko import TimoshenkoSubspace
 
 import antinode as an
 
@@ -53,6 +54,24 @@ def test_the_subspace_starts_cold(beams):
         solver.restart()
         found = solver.omega2(h, m[k], EI[k], N[k], MODES)
         assert np.max(np.abs(found / expected[k] - 1)) < 5e-6
+
+
+def test_elements_with_shear_converge_to_what_is_certified(beams):
+    h, m, EI, N, _ = beams
+    shear, rotary = EI * 100, m / 200
+    batch = an.BeamBatch(
+        np.full(SEGMENTS, h), m, EI, N, shear_stiffness=shear, rotary_inertia_per_length=rotary
+    )
+    exact = an.solve_many(batch).omega2[0]
+    off = []
+    for pieces in (1, 2):
+        fine = [np.repeat(values[0], pieces) for values in (m, EI, N, shear, rotary)]
+        solver = TimoshenkoSubspace(SEGMENTS * pieces)
+        for _ in range(6):
+            found = solver.omega2(h / pieces, *fine[:3], MODES, *fine[3:])
+        off.append(np.max(np.abs(found / exact - 1)))
+    assert off[0] < 1e-3
+    assert off[0] / off[1] == pytest.approx(4, rel=0.01)
 
 
 def test_the_reduced_basis_agrees(beams):
