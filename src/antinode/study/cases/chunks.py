@@ -19,9 +19,9 @@ from antinode.study.design.file import MARGIN_OUTPUTS, Study
 from antinode.study.design.points import Points
 from antinode.vehicle.refusals import OUT_OF_RANGE
 
-from .alone import solve_alone
 from .beams import CaseBeams, beams_of
 from .bending import IN_BATCHES, Eigenvalues, solve_bending
+from .bodies import solve_bodies
 from .reasons import failed
 from .shear import model_errors
 from .structures import solve_structures
@@ -92,7 +92,7 @@ def _every_family(cases: Cases, beams: CaseBeams, points: int) -> tuple[Eigenval
         if family in IN_BATCHES:
             families.append(solve_bending(cases.study, beams, points))
         else:
-            families.append(solve_alone(cases, beams, points, family))
+            families.append(solve_bodies(cases, beams, points, family))
     reason = np.max([f.reason for f in families], axis=0)
     omega2, error, shapes, effect = (
         np.concatenate([getattr(f, name) for f in families], axis=1)

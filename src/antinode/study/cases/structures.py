@@ -102,7 +102,7 @@ def _built(cases: Cases) -> tuple[dict[int, Beam], Integers]:
 def _with_shear(cases: Cases, beams: dict[int, Beam], family: FamilyName) -> dict[int, Solved]:
     """Return one family of all beams, with what shear does to it, if that is asked for."""
     solve = cases.study.solve
-    found = _solved(beams, family, solve.modes, solve.tolerance)
+    found = solve_beams(beams, family, solve.modes, solve.tolerance)
     sheared = {
         i: replace(beams[i], theory="euler_bernoulli")
         for i, solved in found.items()
@@ -110,7 +110,7 @@ def _with_shear(cases: Cases, beams: dict[int, Beam], family: FamilyName) -> dic
     }
     if "effect_of_shear" not in cases.study.outputs:
         sheared = {}
-    rigid = _solved(sheared, family, solve.modes, solve.tolerance)
+    rigid = solve_beams(sheared, family, solve.modes, solve.tolerance)
     none = np.full(solve.modes, np.nan)
     for i, solved in found.items():
         if solved.effect_of_shear is None:
@@ -119,7 +119,7 @@ def _with_shear(cases: Cases, beams: dict[int, Beam], family: FamilyName) -> dic
     return found
 
 
-def _solved(
+def solve_beams(
     beams: dict[int, Beam], family: FamilyName, modes: int, tolerance: float
 ) -> dict[int, Solved]:
     """Return one family of all beams for which it is found."""
