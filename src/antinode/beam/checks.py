@@ -68,8 +68,9 @@ def _check_rising(x: Array) -> None:
 
 def _check_complete(beam: Beam) -> None:
     """Refuse one column of a family without the other, but for what every beam has."""
+    own = vars(beam)
     for name, family in FAMILIES.items():
-        absent = [table for table in family.tables if getattr(beam, table) is None]
+        absent = [table for table in family.tables if own[table] is None]
         if not absent:
             continue
         there = [table for table in family.tables if table not in (*absent, *_ALWAYS)]

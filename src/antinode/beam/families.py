@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from antinode.riccati import laws
@@ -86,7 +87,7 @@ class Family:
         """The beam's table of stiffness."""
         return self.columns["stiffness"]
 
-    @property
+    @cached_property
     def tables(self) -> tuple[str, ...]:
         """The beam's tables that it must read."""
         return tuple(self.columns.values())

@@ -26,7 +26,7 @@ def interpolated(a: Any, b: Any, fraction: Any, how: Interpolation) -> Any:
 
 def kept_intervals(x: Array, how: Interpolation) -> npt.NDArray[np.bool_]:
     """Tell which intervals of a table have a length; two rows at one x are a jump."""
-    return np.asarray((x[1:] != x[:-1]) | (how == "step"))
+    return np.ones(len(x) - 1, dtype=bool) if how == "step" else np.asarray(x[1:] != x[:-1])
 
 
 def breakpoints(x: Array, kept: npt.NDArray[np.bool_]) -> Array:
@@ -39,7 +39,7 @@ def interval_ends(column: Array, kept: npt.NDArray[np.bool_], how: Interpolation
     table = np.empty((len(kept), 2))
     table[:, 0] = column[: len(kept)]
     table[:, 1] = table[:, 0] if how == "step" else column[1:]
-    table = table if kept.all() else table[kept]
+    table = table if how == "step" or kept.all() else table[kept]
     table.flags.writeable = False
     return table
 

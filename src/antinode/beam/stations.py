@@ -114,9 +114,7 @@ def tables_at_stations(
         If a column has another length.
     """
     check_stations(x)
-    kept = np.ones(len(x) - 1, dtype=bool)
-    if jumps:
-        kept = kept_intervals(x, interpolation)
+    kept = kept_intervals(x, interpolation if jumps else "step")
     rows = {
         name: column_of_rows(name, values, len(x), interpolation)
         for name, values in columns.items()

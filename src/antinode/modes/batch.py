@@ -144,23 +144,24 @@ class BeamBatch(ByValue):
 
     def _given(self) -> dict[str, Array]:
         """Return the length and the family's tables, with no axial force where none is given."""
-        family = FAMILIES[self.family]
+        family, own = FAMILIES[self.family], vars(self)
         tables, force = family.tables, family.columns.get("axial_force")
         for name in _TABLES:
-            if (getattr(self, name) is None) == (name in tables) and name != force:
+            if (own[name] is None) == (name in tables) and name != force:
                 self._refuse(family)
-        if any(getattr(self, name) is not None for name in _MORE if name not in family.more):
+        more = [name for name in _MORE if own[name] is not None]
+        if any(name not in family.more for name in more):
             self._refuse(family)
-        averages = [name for name in _AVERAGES if getattr(self, name) is not None]
+        averages = [name for name in _AVERAGES if own[name] is not None]
         if averages and (len(averages) == 1 or self.shear_stiffness is None):
             raise InputError(
                 f"a batch has {averages[0]}: give {' and '.join(_AVERAGES)} beside "
                 "shear_stiffness, or neither"
             )
-        if force and getattr(self, force) is None:
-            object.__setattr__(self, force, np.zeros(1))
-        more = (n for n in (*_MORE, *_AVERAGES) if getattr(self, n) is not None)
-        return {name: owned(name, getattr(self, name)) for name in ("length", *tables, *more)}
+        given = {name: own[name] for name in ("length", *tables, *more, *averages)}
+        if force and given[force] is None:
+            given[force] = np.zeros(1)
+        return {name: owned(name, values) for name, values in given.items()}
 
     def _refuse(self, family: Family) -> None:
         """Say which arrays are missing, and which are of another family."""

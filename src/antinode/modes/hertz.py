@@ -75,11 +75,12 @@ def settled(omega2: float | Array, error: float | Array) -> tuple[Any, Any]:
     Nobody can tell from such a value that a motion grows. The interval that holds the true one
     stays inside that of the new error.
     """
-    unknown = (omega2 < 0) & (omega2 >= -error)
     if isinstance(omega2, float | int):
-        return (0.0, error - omega2) if unknown else (omega2, error)
-    if not np.any(unknown):
+        return (0.0, error - omega2) if 0 > omega2 >= -error else (omega2, error)
+    below: Any = omega2 < 0
+    if not below.any():
         return omega2, error
+    unknown = below & (omega2 >= -error)
     return np.where(unknown, 0.0, omega2), np.where(unknown, error - omega2, error)
 
 

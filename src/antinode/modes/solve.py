@@ -194,7 +194,7 @@ def _solve_families(
     if unloaded:
         found = _compare_unloaded(solver.counting, beam, found, modes, tolerance)
     found = _compare_rigid_in_shear(solver.counting, beam, found, modes, tolerance)
-    if not all(np.isfinite(mode.omega2) for mode in found):
+    if not all(math.isfinite(mode.omega2) for mode in found):
         raise ComputationError("a frequency is no finite number; check the units of the input")
     warnings += result_warnings(beam, found)
     return ModalResult(
@@ -349,6 +349,8 @@ def _compare_rigid_in_shear(
 
     The modes of both theories are compared by their numbers.
     """
+    if not beam.is_timoshenko:
+        return found
     plain = replace(beam, theory="euler_bernoulli")
     compared = []
     for family, entry in FAMILIES.items():

@@ -17,14 +17,14 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from .structures import HEAD, NOT_CALLED, Results, layout_of, words_of
+from .structures import HEAD, NOT_CALLED, Results, layout_of, reader_of
 
 PREFIX = "antinode_"
 """Of the symbols of entries."""
@@ -32,6 +32,9 @@ PREFIX = "antinode_"
 HELPERS = {"exp": "exp", "expm1": "expm1", "log": "log", "memset": "memset", "memcpy": "memcpy"}
 HELPERS |= {"sqrt": "sqrt", "numba_frexp": "frexp", "numba_ldexp": "ldexp"}
 """What the machine code may call from outside, and the name in the C library."""
+
+Entry = tuple[Any, struct.Struct, Callable[[tuple[Any, ...]], tuple[Any, ...]]]
+"""A function; how its words are written; how they are had from its arguments."""
 
 _FOLDER = Path(__file__).parent
 _MORE_SOURCES = [_FOLDER.parent / name for name in ("convergence.py", "reasons.py")]
@@ -73,7 +76,7 @@ class Library:
         self._object = llvm.ObjectFileRef.from_data(code)
         self._engine.add_object_file(self._object)
         self._engine.finalize_object()
-        self._entries: dict[str, tuple[Any, struct.Struct]] = {}
+        self._entries: dict[str, Entry] = {}
 
     def call(self, name: str, *arguments: Any) -> list[int]:
         """Call a function; return the whole numbers that it gives.
@@ -83,18 +86,19 @@ class Library:
         ValueError
             If an array is not contiguous.
         """
-        words, results = words_of(arguments), Results()
-        function, layout = self._entries.get(name) or self._entry(name, words)
-        function(layout.pack(*words), results)
+        function, layout, words_of = self._entries.get(name) or self._entry(name, arguments)
+        results = Results()
+        function(layout.pack(*words_of(arguments)), results)
         if results[NOT_CALLED]:
             raise ValueError(f"an array that {name} takes is not contiguous")
         return results[:NOT_CALLED]
 
-    def _entry(self, name: str, words: list[Any]) -> tuple[Any, struct.Struct]:
-        """Return a function, and how its words are written: as those of its first call."""
+    def _entry(self, name: str, arguments: tuple[Any, ...]) -> Entry:
+        """Return a function, and how its words are had and written: as those of its first call."""
         address = self._engine.get_function_address(PREFIX + name)
         function = ctypes.CFUNCTYPE(None, ctypes.c_char_p, ctypes.c_void_p)(address)
-        self._entries[name] = function, layout_of(words)
+        words_of = reader_of(arguments)
+        self._entries[name] = function, layout_of(words_of(arguments)), words_of
         return self._entries[name]
 
 
