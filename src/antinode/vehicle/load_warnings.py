@@ -200,7 +200,7 @@ def _clearance(cases: ManyCases, hole: Cavity, start: Array, end: Array) -> Arra
     low, high = (np.clip(x[:, None], start, end) for x in (body.x[:-1], body.x[1:]))
     slope = (np.diff(body.ends, axis=1)[:, 0] / np.diff(body.x))[:, None]
     R = [body.ends[:, :1] + slope * (x - body.x[:-1, None]) for x in (low, high)]
-    bound = np.where(low < high, hole.protrusion_bound(low, high, *R), -np.inf)
+    bound = np.where(low < high, hole.course.protrusion_bound(low, high, *R), -np.inf)
     return np.asarray(np.max(bound, axis=0))
 
 

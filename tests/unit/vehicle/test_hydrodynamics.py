@@ -384,7 +384,7 @@ class TestBoundOfProtrusion:
             R = rng.uniform(0.01, 0.3, 2)
             x = np.linspace(a, b, 400)
             out = np.abs(hole.axis_offset(x)) + np.interp(x, [a, b], R) - hole.radius(x)
-            bound = float(hole.protrusion_bound(a, b, *R))
+            bound = float(hole.course.protrusion_bound(a, b, *R))
             assert bound >= out.max() - 1e-14
             if rise != "buoyancy" and b < hole.L_c:
                 assert bound <= out.max() + (b - a) * abs(hole.axis_slope(b) - hole.axis_slope(a))
@@ -408,6 +408,36 @@ class TestRoots:
     def test_ends_that_are_roots_and_none_at_all(self):
         assert find_roots(lambda x, _: 1 - x, np.zeros(1), np.ones(1)) == [1]
         assert len(find_roots(lambda x, _: x, np.zeros(0), np.zeros(0))) == 0
+
+    def test_a_function_that_is_zero_over_some_rounding_errors_is_soon_done(self):
+        asked = []
+
+        def function(x, rows):
+            asked.append(len(rows))
+            return np.where(np.abs(x - 1.07) < 4e-15, 0.0, x**3 - 1.07**3)
+
+        assert find_roots(function, np.array([1.0]), np.array([1.2])) == close(1.07, rel=1e-14)
+        assert len(asked) < 15
+
+
+class TestCourse:
+    """The few numbers against the equations as they are written."""
+
+    @pytest.mark.parametrize("rise", ["paper", "buoyancy", "none"])
+    def test_radius_and_axis_are_those_of_the_equations(self, rise):
+        c = cavity(sigma=0.03, angle=8 * DEG, theta=2 * DEG, gravity_rise=rise)
+        x = np.linspace(0, c.L_c * (1 - 1e-9), 60)
+        s = 2 * x / c.L_c
+        R_c = np.sqrt(s * (2 - s) * (c.D_c**2 - c.D_n**2) + c.D_n**2) / 2
+        np.testing.assert_allclose(c.radius(x), R_c, rtol=1e-14)
+        axis = c.theta * x + c.gravity_rise(x) - c.distortion(x)
+        np.testing.assert_allclose(c.axis_offset(x), axis, atol=1e-15, rtol=1e-14)
+
+    @pytest.mark.parametrize("sigma", np.linspace(0.01, 0.05, 9))
+    def test_the_closure_itself_is_not_behind_it(self, sigma):
+        c = cavity(sigma=sigma)
+        assert c.radius(c.L_c) == close(c.D_n / 2, rel=1e-12)
+        assert c.radius(np.nextafter(c.L_c, np.inf)) == 0.0
 
 
 class TestPlaningState:

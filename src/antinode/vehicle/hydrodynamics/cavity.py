@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike
 from antinode.vehicle.options import Model
 
 from .cavitator import drag_coefficient
+from .course import Course, rise_by_buoyancy
 from .validity import Range
 
 SIZE_RANGE = Range(
@@ -94,22 +95,6 @@ def rise_by_paper(x_bar: Any, sigma: Any, Fr_L: Any) -> Any:
         Froude number of the cavity length [-].
     """
     return (1 + sigma) / (4.5 * Fr_L**2) * x_bar**2 * x_bar
-
-
-def rise_by_buoyancy(x_bar: Any, Fr_L: Any) -> Any:
-    """Rise of an ellipsoidal cavity by the momentum of its buoyancy, over half its length [-].
-
-    A section of area S moves up at g Q / (V S), with Q the volume of cavity ahead of it: the
-    impulse of its buoyancy over its displaced mass. The integral is infinite at the cavity's end.
-
-    Parameters
-    ----------
-    x_bar : array_like
-        Distance from the nose over half the cavity length, below 2 [-].
-    Fr_L : array_like
-        Froude number of the cavity length [-].
-    """
-    return (x_bar**2 / 6 - x_bar / 3 - 2 / 3 * np.log1p(-x_bar / 2)) / (2 * Fr_L**2)
 
 
 def distortion(x_bar: Any, sigma: Any, alpha: Any, R_n: Any) -> Any:
@@ -192,58 +177,42 @@ class Cavity:
         numbers["theta"] = self.theta - slope
         return MovedCavity(**numbers, raised=slope * x - deflection)
 
+    @cached_property
+    def course(self) -> Course:
+        """Radius and axis along the body, in a few numbers."""
+        numbers = [self.L_c, 2 / self.L_c, (self.D_c**2 - self.D_n**2) / 4, self.D_n**2 / 4]
+        straight = (self.distortion(self.L_c) - self.distortion(0.0)) / 2
+        numbers += [-self.distortion(0.0), self.theta * self.L_c / 2 - straight]
+        none = 0.0 * self.L_c
+        if self.model.gravity_rise == "paper":
+            numbers += [self._rise_scale * rise_by_paper(1.0, self.sigma, self.Fr_L)]
+        elif self.model.gravity_rise == "none":
+            numbers += [none]
+        else:
+            numbers += [none, self._rise_scale, self.Fr_L, self._last_station]
+        return Course(np.array(np.broadcast_arrays(*numbers), dtype=float))
+
     def radius(self, x: ArrayLike) -> Any:
         """Return the cavity's radius R_c at `x` by eq. 9 [m]; 0 behind the closure."""
-        x_bar = 2 * np.asarray(x, dtype=float) / self.L_c
-        square = x_bar * (2 - x_bar) * (self.D_c**2 - self.D_n**2) + self.D_n**2
-        return np.where(x_bar <= 2, np.sqrt(np.maximum(square, 0)) / 2, 0.0)
+        return self.course.radius(np.asarray(x, dtype=float))
 
     def radius_slope(self, x: ArrayLike) -> Any:
         """Return dR_c/dx at `x` [-]; 0 behind the closure."""
-        x_bar = 2 * np.asarray(x, dtype=float) / self.L_c
-        R_c = np.where(x_bar <= 2, self.radius(x), 1.0)
-        slope = (1 - x_bar) * (self.D_c**2 - self.D_n**2) / (2 * self.L_c * R_c)
-        return np.where(x_bar <= 2, slope, 0.0)
+        return self.course.radius_slope(np.asarray(x, dtype=float))
 
     def axis_offset(self, x: ArrayLike) -> Any:
         """Return cavity axis minus body axis at `x`, up positive [m].
 
         Behind the closure, where there is no cavity, it keeps the value at the closure.
         """
-        x = np.minimum(x, self.L_c)
-        return self.theta * x + self.gravity_rise(x) - self.distortion(x)
+        return self.course.axis(np.asarray(x, dtype=float))
 
     def axis_slope(self, x: ArrayLike) -> Any:
         """Return the slope of the cavity axis against the body axis at `x` [-].
 
         Behind the closure it keeps the value at the closure.
         """
-        x = np.minimum(x, self.L_c)
-        h_sigma_slope = (self.distortion(self.L_c) - self.distortion(0.0)) / self.L_c
-        return self.theta + self._rise_slope(x) - h_sigma_slope
-
-    def protrusion_bound(self, start: Any, end: Any, R_start: Any, R_end: Any) -> Any:
-        """Return what ``abs(offset) + R - R_c`` is at most between places [m]; infinite: unknown.
-
-        R is straight there, R_c concave, the axis convex: ``offset + R - R_c`` is largest at an
-        end, ``-offset + R - R_c`` above its ends by no more than the axis lies below its chord, a
-        quarter of the length times the growth of its slope.
-
-        Parameters
-        ----------
-        start, end : float or array
-            The places [m].
-        R_start, R_end : float or array
-            Radius of the body there [m].
-        """
-        below = (end - start) * (self.axis_slope(end) - self.axis_slope(start)) / 4
-        ends = (
-            np.abs(self.axis_offset(x)) + R - self.radius(x)
-            for x, R in ((start, R_start), (end, R_end))
-        )
-        is_convex = (self.D_c >= self.D_n) & (self._rise_scale >= 0)
-        is_convex = is_convex & (2 * end / self.L_c <= self._last_station)
-        return np.where(is_convex, np.maximum(*ends) + below, np.inf)
+        return self.course.axis_slope(np.asarray(x, dtype=float))
 
     def gravity_rise(self, x: ArrayLike) -> Any:
         """Return the rise h_g at `x` of the chosen formula [m]."""
@@ -284,17 +253,6 @@ class Cavity:
         name = "half_cavity" if buoyancy else self.model.gravity_rise_length
         return self.model.gravity_rise_factor * lengths[name]
 
-    def _rise_slope(self, x: ArrayLike) -> Any:
-        """dh_g/dx at `x` [-]."""
-        x_bar = self._rise_station(x)
-        if self.model.gravity_rise == "none":
-            return 0 * x_bar
-        slope = (1 + self.sigma) * x_bar**2 / (1.5 * self.Fr_L**2)
-        if self.model.gravity_rise == "buoyancy":
-            slope = (x_bar / 3 - 1 / 3 + 2 / 3 / (2 - x_bar)) / (2 * self.Fr_L**2)
-            slope = np.where(x_bar < self._last_station, slope, 0.0)
-        return self._rise_scale * slope * 2 / self.L_c
-
 
 @dataclass(frozen=True)
 class MovedCavity(Cavity):
@@ -310,9 +268,12 @@ class MovedCavity(Cavity):
 
     raised: Any = 0.0
 
-    def axis_offset(self, x: ArrayLike) -> Any:
-        """Return cavity axis minus body axis at `x`, up positive [m]."""
-        return super().axis_offset(x) + self.raised
+    @cached_property
+    def course(self) -> Course:
+        """Radius and axis along the body, as the place sees them."""
+        numbers = [*super().course.numbers]
+        numbers[4] = numbers[4] + self.raised
+        return Course(np.array(np.broadcast_arrays(*numbers)))
 
 
 def form_cavity(

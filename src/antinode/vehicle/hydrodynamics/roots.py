@@ -1,7 +1,9 @@
 """Roots of many functions at once, each between two places where its sign differs.
 
 Chandrupatla's method: inverse quadratic interpolation where the three latest points allow it, else
-bisection. A root does not depend on which others are looked for beside it.
+bisection; the first place is that of the secant. A place where the function is zero is a root: near
+one it may be zero over some rounding errors. A root does not depend on which others are looked for
+beside it.
 
 Source: T. R. Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a
 nonlinear function without using derivatives", Advances in Engineering Software 28 (1997) 145-149.
@@ -17,6 +19,7 @@ from antinode.arrays import Array, Integers
 
 _MOST_STEPS = 100
 _SHARE = 4  # those that are found are set aside once they are one in so many
+_LEAST = 1 / 64  # of an interval, between its end and the first place
 _PRECISION = 2 * np.finfo(float).eps
 
 
@@ -31,26 +34,32 @@ def find_roots(function: Callable[[Array, Integers], Array], low: Array, high: A
         Places of which one has a positive value.
     """
     rows = np.arange(len(low))
-    a, b, t, root = high, low, np.full(len(low), 0.5), high.copy()
+    a, b, root = high, low, high.copy()
     f_a, f_b = function(a, rows), function(b, rows)
-    for _ in range(_MOST_STEPS if len(low) else 0):
-        precision = _PRECISION * np.maximum(np.abs(a), np.abs(b))
-        found = np.abs(b - a) <= precision
-        if np.count_nonzero(found) * _SHARE >= len(found):
-            root[rows] = np.where(np.abs(f_a) <= np.abs(f_b), a, b)
-            left = ~found
-            rows, precision = rows[left], precision[left]
-            a, b, t, f_a, f_b = (v[left] for v in (a, b, t, f_a, f_b))
-            if not len(rows):
-                return root
-            found = found[left]
-        x = np.where(found, a, a + t * (b - a))
-        f_x = np.where(found, f_a, function(x, rows))
-        same = (f_x > 0) == (f_a > 0)
-        c, f_c = np.where(same, a, b), np.where(same, f_a, f_b)
-        b, f_b = np.where(same, b, a), np.where(same, f_b, f_a)
-        a, f_a = x, f_x
-        t = _next_fraction(a, b, c, f_a, f_b, f_c, precision)
+    with np.errstate(all="ignore"):
+        t = np.clip(np.nan_to_num(f_a / (f_a - f_b), nan=0.5), _LEAST, 1 - _LEAST)
+        for _ in range(_MOST_STEPS if len(low) else 0):
+            precision = _PRECISION * np.maximum(np.abs(a), np.abs(b))
+            found = (np.abs(b - a) <= precision) | (f_a == 0)
+            number = np.count_nonzero(found)
+            if number * _SHARE >= len(found):
+                root[rows] = np.where(np.abs(f_a) <= np.abs(f_b), a, b)
+                left = np.flatnonzero(~found)
+                if not len(left):
+                    return root
+                rows, precision, a, b, t, f_a, f_b = (
+                    v[left] for v in (rows, precision, a, b, t, f_a, f_b)
+                )
+                number = 0
+            x = a + t * (b - a)
+            if number:
+                x = np.where(found, a, x)
+            f_x = function(x, rows)
+            same = (f_x > 0) == (f_a > 0)
+            c, f_c = np.where(same, a, b), np.where(same, f_a, f_b)
+            b, f_b = np.where(same, b, a), np.where(same, f_b, f_a)
+            a, f_a = x, f_x
+            t = _next_fraction(a, b, c, f_a, f_b, f_c, precision)
     root[rows] = np.where(np.abs(f_a) <= np.abs(f_b), a, b)
     return root
 
@@ -58,11 +67,14 @@ def find_roots(function: Callable[[Array, Integers], Array], low: Array, high: A
 def _next_fraction(
     a: Array, b: Array, c: Array, f_a: Array, f_b: Array, f_c: Array, precision: Array
 ) -> Array:
-    """Return where to look between `a` and `b`; `c` is the place that was given up last."""
-    with np.errstate(all="ignore"):  # equal places and values: not smooth, or found already
-        place, value = (a - b) / (c - b), (f_a - f_b) / (f_c - f_b)
-        smooth = (value**2 < place) & ((1 - value) ** 2 < 1 - place)
-        quadratic = f_a / (f_b - f_a) * f_c / (f_b - f_c)
-        quadratic += (c - a) / (b - a) * f_a / (f_c - f_a) * f_b / (f_c - f_b)
-        near = np.minimum(precision / np.abs(b - a), 0.5)
-    return np.where(smooth, np.clip(quadratic, near, 1 - near), 0.5)
+    """Return where to look between `a` and `b`; `c` is the place that was given up last.
+
+    Equal places and values are not smooth, or found already.
+    """
+    width = b - a
+    place, value = -width / (c - b), (f_a - f_b) / (f_c - f_b)
+    smooth = (value * value < place) & ((1 - value) * (1 - value) < 1 - place)
+    quadratic = f_a / (f_b - f_a) * f_c / (f_b - f_c)
+    quadratic += (c - a) / width * f_a / (f_c - f_a) * f_b / (f_c - f_b)
+    near = np.minimum(precision / np.abs(width), 0.5)
+    return np.where(smooth, np.minimum(np.maximum(quadratic, near), 1 - near), 0.5)

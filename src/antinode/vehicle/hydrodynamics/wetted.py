@@ -18,8 +18,8 @@ Considering Hydrodynamic Conditions", eq. 16, with the area as docs/theory/hydro
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from functools import cached_property, reduce
+from dataclasses import dataclass, replace
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,11 +29,13 @@ from antinode.arrays import Array, Integers
 from antinode.beam.profile import Profile
 
 from .cavity import Cavity
+from .course import Course
 from .roots import find_roots
 
 _SAMPLES, _FEWEST = 256, 8  # places along the body, and on every piece, between which contacts lie
 _ROUNDING = 1e-12  # of the radius
 _BLOCK = 2**15  # numbers that are worked on at a time
+_NO_DISTANCE = np.finfo(float).tiny / np.finfo(float).eps
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _S = (_NODES + 1) / 2
 _T, _DT = (_S**2 * (3 - 2 * _S))[:, None], (3 * _S * (1 - _S) * _WEIGHTS)[:, None]
@@ -68,9 +70,11 @@ def wet_angle(R: Any, R_c: Any, offset: Any) -> Any:
     offset : array_like
         Distance between the centres, of either sign [m].
     """
-    d = np.maximum(np.abs(offset), np.finfo(float).tiny / np.finfo(float).eps)
-    cosine = np.clip((R**2 - R_c**2 + d**2) / d, -2 * R, 2 * R) / (2 * R)
-    return 2 * np.arccos(-cosine)
+    d, most = np.maximum(np.abs(offset), _NO_DISTANCE), 2 * R
+    cosine = np.asarray(R_c * R_c - R * R - d * d) / d
+    cosine = np.minimum(np.maximum(cosine, -most), most)
+    cosine /= most
+    return 2 * np.arccos(cosine)
 
 
 def wetted_width(R: Any, angle: Any, area: str) -> Any:
@@ -96,48 +100,39 @@ class _Pieces:
 
     Attributes
     ----------
-    case, interval : array of int (pieces,)
-        Whose they are, and between which stations.
+    case : array of int (pieces,)
+        Whose they are.
     start, end : array (pieces,)
         [m].
-    cavities : Cavity
-        Of all cases.
-    body : Profile
-        Radius of the bodies [m].
+    course : Course
+        The cavity along every piece.
+    line : array (2, pieces)
+        The body's radius along every piece: at x = 0 [m], and its slope.
     """
 
     case: Integers
-    interval: Integers
     start: Array
     end: Array
-    cavities: Cavity
-    body: Profile
+    course: Course
+    line: Array
 
     def take(self, rows: Any) -> _Pieces:
         """Return some of the pieces, perhaps several times."""
-        case, interval, start, end = self.case, self.interval, self.start, self.end
-        return _Pieces(case[rows], interval[rows], start[rows], end[rows], self.cavities, self.body)
-
-    @cached_property
-    def cavity(self) -> Cavity:
-        """The cavity around every piece."""
-        return self.cavities.take(self.case)
-
-    @cached_property
-    def _line(self) -> tuple[Array, Array, Array]:
-        """The body's radius along every piece: start of its interval, radius there, slope."""
-        x, ends = self.body.x, self.body.ends
-        slope = (ends[:, 1] - ends[:, 0]) / np.diff(x)
-        return x[self.interval], ends[self.interval, 0], slope[self.interval]
+        along = self.line[:, rows] if isinstance(rows, slice) else np.take(self.line, rows, axis=1)
+        case, start, end = self.case[rows], self.start[rows], self.end[rows]
+        return _Pieces(case, start, end, self.course.take(rows), along)
 
     def radius(self, x: Array) -> Array:
         """Return R at places on every piece, (..., pieces) [m]."""
-        start, radius, slope = self._line
-        return np.asarray(radius + slope * (x - start))
+        nose, slope = self.line
+        found = x * slope
+        found += nose
+        return np.asarray(found)
 
     def circles(self, x: Array) -> tuple[Array, Array, Array]:
-        """Return R, R_c and the distance between the centres at places on every piece [m]."""
-        return self.radius(x), self.cavity.radius(x), np.abs(self.cavity.axis_offset(x))
+        """Return R, R_c and the distance between the centres at places ahead of closures [m]."""
+        offset = self.course.axis_ahead(x)
+        return self.radius(x), self.course.radius_ahead(x), np.abs(offset, out=offset)
 
     @property
     def width(self) -> Array:
@@ -165,17 +160,18 @@ def wetted_surface(cavities: Cavity, body: Profile) -> WettedSurface:
     body : Profile
         Radius of the body, the same for all cases [m]; linear on every interval.
     """
-    cases, tail = len(cavities.L_c), float(body.x[-1])
-    pieces = _pieces(cavities, body)
-    behind = pieces.start >= cavities.L_c[pieces.case]
-    ahead = pieces.take(~behind)
-    ahead = _split_at_contacts(ahead.take(~_is_dry(ahead)))
+    cases, tail, form = len(cavities.L_c), float(body.x[-1]), cavities.model.planing_area
+    pieces = _pieces(cavities.course, body)
+    is_behind = pieces.start >= pieces.course.closure
+    behind = pieces.take(np.flatnonzero(is_behind))
+    ahead = pieces.take(np.flatnonzero(~(is_behind | _is_dry(pieces))))
+    ahead = _split_at_contacts(ahead, max(_FEWEST, -(-_SAMPLES // (len(body.x) - 1))))
     middle = ahead.start + ahead.width / 2
-    ahead, behind = ahead.take(_outside(*ahead.circles(middle)) > 0), pieces.take(behind)
-    blocks = [_integrals(ahead.take(block)) for block in _blocks(ahead, len(_T))]
+    ahead = ahead.take(np.flatnonzero(_outside(*ahead.circles(middle)) > 0))
+    blocks = [_integrals(ahead.take(block), form) for block in _blocks(ahead, len(_T))]
     case = np.concatenate([ahead.case, behind.case])
     parts = [(ahead.width, *map(np.concatenate, zip(*blocks, strict=True)))]
-    parts.append((behind.width, *_all_round(behind)))
+    parts.append((behind.width, *_all_round(behind, form)))
     length, area, moment = (
         np.bincount(case, np.concatenate(each), minlength=cases).astype(float)
         for each in zip(*parts, strict=True)
@@ -188,7 +184,7 @@ def wetted_surface(cavities: Cavity, body: Profile) -> WettedSurface:
 def _is_dry(pieces: _Pieces) -> npt.NDArray[np.bool_]:
     """Tell which pieces are inside the cavity from end to end, by more than rounding."""
     R = pieces.radius(pieces.start), pieces.radius(pieces.end)
-    bound = pieces.cavity.protrusion_bound(pieces.start, pieces.end, *R)
+    bound = pieces.course.protrusion_bound(pieces.start, pieces.end, *R)
     return np.asarray(bound < -_ROUNDING * np.maximum(*R))
 
 
@@ -198,31 +194,33 @@ def _blocks(pieces: _Pieces, points: int) -> list[slice]:
     return [slice(k, k + size) for k in range(0, max(1, len(pieces.start)), size)]
 
 
-def _integrals(pieces: _Pieces) -> tuple[Array, Array]:
+def _integrals(pieces: _Pieces, form: str) -> tuple[Array, Array]:
     """Return wetted area and its first moment about the nose of every piece."""
     x = pieces.start + pieces.width * _T
     R, R_c, d = pieces.circles(x)
     angle = wet_angle(R, R_c, d)
-    strips = pieces.width * _DT * wetted_width(R, angle, pieces.cavities.model.planing_area)
+    strips = pieces.width * _DT * wetted_width(R, angle, form)
     return reduce(np.add, strips), reduce(np.add, strips * x)
 
 
-def _all_round(pieces: _Pieces) -> tuple[Array, Array]:
+def _all_round(pieces: _Pieces, form: str) -> tuple[Array, Array]:
     """Return the same of pieces behind the closure, which are wet all round: R runs straight."""
-    around = wetted_width(1.0, 2 * math.pi, pieces.cavities.model.planing_area) * pieces.width
+    around = wetted_width(1.0, 2 * math.pi, form) * pieces.width
     (a, b), (R, S) = (pieces.start, pieces.end), map(pieces.radius, (pieces.start, pieces.end))
     return around * (R + S) / 2, around * (R * (2 * a + b) + S * (a + 2 * b)) / 6
 
 
-def _pieces(cavities: Cavity, body: Profile) -> _Pieces:
+def _pieces(cavities: Course, body: Profile) -> _Pieces:
     """Cut every body at its stations and at the closure, from the cavity's middle on."""
     low, high = body.x[:-1, None], body.x[1:, None]
-    closure = cavities.L_c
+    closure = cavities.closure
     start = np.maximum(low, closure / 2)
     interval, case = np.nonzero((start < high) & np.isfinite(closure))
     start, end, closure = start[interval, case], body.x[interval + 1], closure[case]
+    slope = (body.ends[:, 1] - body.ends[:, 0]) / np.diff(body.x)
+    line = np.stack([body.ends[:, 0] - slope * body.x[:-1], slope])
     closes = np.flatnonzero((closure > start) & (closure < end))
-    pieces = _Pieces(case, interval, start, end, cavities, body)
+    pieces = _Pieces(case, start, end, cavities.take(case), np.take(line, interval, axis=1))
     return _cut(pieces, closes, closure[closes])
 
 
@@ -230,19 +228,18 @@ def _cut(pieces: _Pieces, which: Integers, x: Array) -> _Pieces:
     """Cut some pieces, perhaps several times, at places within them."""
     if not len(which):
         return pieces
-    piece = np.concatenate([np.arange(len(pieces.start)), which])
-    start = np.concatenate([pieces.start, x])
-    order = np.lexsort((start, piece))
-    piece, start = piece[order], start[order]
-    last = np.append(piece[1:] != piece[:-1], True)
-    end = np.where(last, pieces.end[piece], np.append(start[1:], 0.0))
-    case, interval = pieces.case[piece], pieces.interval[piece]
-    return _Pieces(case, interval, start, end, pieces.cavities, pieces.body)
+    order = np.lexsort((x, which))
+    which, x = which[order], x[order]
+    start, end = np.insert(pieces.start, which + 1, x), np.insert(pieces.end, which, x)
+    piece = np.insert(np.arange(len(pieces.start)), which + 1, which)
+    return replace(pieces.take(piece), start=start, end=end)
 
 
-def _split_at_contacts(pieces: _Pieces) -> _Pieces:
-    """Cut pieces where wetting starts or ends, and where the body leaves the cavity wholly."""
-    count = max(_FEWEST, -(-_SAMPLES // (len(pieces.body.x) - 1)))
+def _split_at_contacts(pieces: _Pieces, count: int) -> _Pieces:
+    """Cut pieces where wetting starts or ends, and where the body leaves the cavity wholly.
+
+    Contacts are looked for between so many even places on every piece.
+    """
     t = np.clip(np.linspace(0, 1, count + 1), 1e-12, 1 - 1e-12)[:, None]
     found = [_brackets(pieces, block, t) for block in _blocks(pieces, len(t))]
     which, low, high, around = (np.concatenate(each) for each in zip(*found, strict=True))
@@ -263,7 +260,8 @@ def _brackets(pieces: _Pieces, block: slice, t: Array) -> tuple[Integers, Array,
     found = []
     for around, gap in ((False, _outside(R, R_c, d)), (True, _around(R, R_c, d))):
         positive = gap > 0
-        step, piece = np.nonzero(positive[1:] != positive[:-1])
+        changed = np.flatnonzero(positive[1:] != positive[:-1])
+        step, piece = np.divmod(changed, max(1, x.shape[1]))
         kind = np.full(len(piece), around)
         found.append((piece + block.start, x[step, piece], x[step + 1, piece], kind))
     which, low, high, kind = (np.concatenate(each) for each in zip(*found, strict=True))
