@@ -12,6 +12,7 @@ EXAMPLES = {
     "starter": "antinode modes {folder}case.toml",
     "paper": "antinode modes {folder}case.toml",
     "sweep": "antinode sweep {folder}study.toml --plot {folder}sweep.png",
+    "mast": "antinode sweep {folder}study.toml",
     "beam": "antinode beam {folder}beam.toml",
     "drawing": "antinode beam {folder}beam.toml",
     "tower": "antinode beam {folder}beam.toml",

@@ -36,7 +36,7 @@ def rise_by_buoyancy(x_bar: Any, Fr_L: Any) -> Any:
 
 
 def buoyancy_slope(x_bar: Any, Fr_L: Any) -> Any:
-    """Derivative of `rise_by_buoyancy` by `x_bar` [-]."""
+    """Return the derivative of `rise_by_buoyancy` by `x_bar` [-]."""
     return (x_bar / 3 - 1 / 3 + 2 / 3 / (2 - x_bar)) / (2 * Fr_L**2)
 
 
