@@ -84,7 +84,7 @@ class Course:
         square = (2 - s) * s
         square *= growth
         square += least
-        return np.sqrt(np.maximum(square, 0))
+        return np.asarray(np.sqrt(np.maximum(square, 0)))
 
     def axis_ahead(self, x: Any) -> Array:
         """Return cavity axis minus body axis at places that are not behind the closure [m]."""

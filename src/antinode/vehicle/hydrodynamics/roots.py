@@ -41,19 +41,14 @@ def find_roots(function: Callable[[Array, Integers], Array], low: Array, high: A
         for _ in range(_MOST_STEPS if len(low) else 0):
             precision = _PRECISION * np.maximum(np.abs(a), np.abs(b))
             found = (np.abs(b - a) <= precision) | (f_a == 0)
-            number = np.count_nonzero(found)
-            if number * _SHARE >= len(found):
+            if np.count_nonzero(found) * _SHARE >= len(found):
                 root[rows] = np.where(np.abs(f_a) <= np.abs(f_b), a, b)
                 left = np.flatnonzero(~found)
                 if not len(left):
                     return root
-                rows, precision, a, b, t, f_a, f_b = (
-                    v[left] for v in (rows, precision, a, b, t, f_a, f_b)
-                )
-                number = 0
-            x = a + t * (b - a)
-            if number:
-                x = np.where(found, a, x)
+                rows, precision, found = rows[left], precision[left], found[left]
+                a, b, t, f_a, f_b = (v[left] for v in (a, b, t, f_a, f_b))
+            x = np.where(found, a, a + t * (b - a))
             f_x = function(x, rows)
             same = (f_x > 0) == (f_a > 0)
             c, f_c = np.where(same, a, b), np.where(same, f_a, f_b)
