@@ -39,7 +39,10 @@ napoleon_use_param = False
 napoleon_use_rtype = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
-_NAMES = "Array Integers Complex Numbers AxesArray ArrayLike npt.ArrayLike FamilyName Interpolation"
+_NAMES = (
+    "Array Integers Complex Numbers Columns AxesArray ArrayLike npt.ArrayLike FamilyName "
+    "Interpolation"
+)
 autodoc_type_aliases = {name: name.rpartition(".")[2] for name in _NAMES.split()}
 autodoc_default_options = {"members": True}
 python_use_unqualified_type_names = True

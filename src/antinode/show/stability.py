@@ -13,12 +13,15 @@ from rich.text import Text
 from antinode.modes.result import not_modelled
 from antinode.text import counted
 
-from .printing import new_table, show_left_out, show_warnings
+from .printing import fitting, new_table, show_left_out, show_warnings
 from .style import INK, PALETTE, WIDTH, styled, zero_line
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from rich.table import Table
 
     from antinode.beam.beam import Beam
     from antinode.stability.loci import Loci
@@ -29,17 +32,17 @@ _CHANGES = {
     "regained": "regained",
     "merged": "diverging modes begin to flutter",
 }
+_HEADINGS = "modes", "factor", "+-", "kind", "f [Hz]", "stability", "bracket by"
+_KEPT = ((0, 1, 2, 3, 4, 5, 6), (0, 1, 2, 3, 4, 6), (0, 1, 3, 4, 6), (0, 1, 3, 6), (0, 1, 3))
+"""Columns that a narrow terminal keeps."""
 _PROOFS = {"counts": "counts", "winding": "winding number", "none": "not proven"}
 
 
 def show_stability(out: Console, result: Stability, beam: Beam) -> None:
     """Print every change of stability, what lies between, warnings, and what is left out."""
     if result.critical:
-        headings = "factor", "+-", "kind", "f [Hz]", "modes", "stability", "bracket by"
-        table = new_table(*headings, left=(2, 4, 5, 6))
-        for each in result.critical:
-            table.add_row(*(Text(cell) for cell in _cells(each)))
-        out.print(table)
+        tables = (_critical_table(result.critical, kept) for kept in _KEPT)
+        out.print(fitting(tables, out, wrapped=True))
     else:
         out.print("stable, whatever the factor" if result.range[1] == float("inf") else "stable")
     if result.damped is not None:
@@ -49,14 +52,23 @@ def show_stability(out: Console, result: Stability, beam: Beam) -> None:
     show_left_out(out, not_modelled(beam))
 
 
+def _critical_table(critical: Sequence[CriticalLoad], kept: Sequence[int]) -> Table:
+    headings = [_HEADINGS[k] for k in kept]
+    table = new_table(*headings, left=[i for i, k in enumerate(kept) if k in (0, 3, 5, 6)])
+    for each in critical:
+        cells = _cells(each)
+        table.add_row(*(Text(cells[k]) for k in kept))
+    return table
+
+
 def _cells(each: CriticalLoad) -> tuple[str, ...]:
     flutter = each.kind == "flutter"
     return (
+        " with ".join(each.modes),
         f"{each.load_factor:.10g}",
         f"{each.error:.1e}",
         each.kind,
         f"{each.frequency_hz:.7g}" if flutter else "",
-        " with ".join(each.modes),
         _CHANGES[each.change],
         _PROOFS[each.certificate.kind],
     )

@@ -4,6 +4,7 @@ import errno
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -96,6 +97,17 @@ def test_a_zero_with_an_error_is_not_exact(folder):
     assert float(held[4]) >= 1.7434550e-9
 
 
+BECK = """
+[beam]
+ends = { left = "clamped", right_follower = 1.0 }
+[beam.stations]
+x = [0, 1]
+mass_per_length = [1, 1]
+bending_stiffness = [1, 1]
+axial_force = [1, 1]
+"""
+
+
 @pytest.mark.parametrize("width", [10, 40, 60])
 @pytest.mark.parametrize(
     "line",
@@ -106,12 +118,14 @@ def test_a_zero_with_an_error_is_not_exact(folder):
         "modes case.toml",
         "loads case.toml",
         "beam beam.toml --buckling",
+        "stability beck.toml",
         "ask study.toml --smallest f1 --quantiles f1 --where speed>9 --share f1>3",
         "response equipment/response.toml",
     ],
 )
 def test_no_table_cuts_its_numbers(folder, monkeypatch, width, line):
     run("init", "--example", "response", "equipment")
+    Path("beck.toml").write_text(BECK)
     monkeypatch.setenv("COLUMNS", str(width))
     ended = run(*line.split())
     assert ended.code == 0
