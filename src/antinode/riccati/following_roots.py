@@ -29,6 +29,7 @@ _GAPS = 6  # above those wanted in which the line may stand
 _ENOUGH = 0.8  # of abs(g - 1) far off
 _DENSE = 6  # samples of the characteristic function for each eigenvalue
 _PASSES = 60
+_BLURRED = 1e-9  # of the scale: nearer to zero than this, changes of sign may be rounding
 _ROUNDED = 1e-7  # of a zero, up to which steps that shrink no more are rounding
 _STEPS = 1e-3, 1e-5  # share of an imaginary part: against rounding, and beside a pole
 _ON_AXIS = 1e-9  # share of an imaginary part that is rounding
@@ -77,6 +78,7 @@ class Finder:
             floor *= 10
             keep = np.abs(places) > floor
             brackets = _changes(places[keep], values[keep])
+        brackets = _told_apart(brackets, _BLURRED * self.scale)
         found = self.shrink(brackets)
         found += [Eigenvalue(0, 0.0, (-floor, floor), (0, 0))] * self.zeros
         if len(brackets) < missing:
@@ -328,6 +330,21 @@ def _changes(places: Array, values: Array) -> list[Bracket]:
     change = np.flatnonzero(values[1:] * values[:-1] <= 0)
     rows = np.stack([places[:-1], places[1:], values[:-1], values[1:]], axis=1)[change]
     return [(a, b, c, d) for a, b, c, d in rows.tolist()]
+
+
+def _told_apart(brackets: list[Bracket], blurred: float) -> list[Bracket]:
+    """Take three or more changes of sign close to zero for one, if odd in number, or for two.
+
+    A double root at zero, of a body whose turn is free, makes its neighbourhood so flat that
+    rounding changes the sign again and again; each would pass for an eigenvalue.
+    """
+    near = [k for k, (low, high, *_) in enumerate(brackets) if max(-low, high) < blurred]
+    if len(near) < 3:
+        return brackets
+    first, last = brackets[near[0]], brackets[near[-1]]
+    whole = (first[0], last[1], first[2], last[3])
+    kept = [whole] if len(near) % 2 else [first, last]
+    return [*brackets[: near[0]], *kept, *brackets[near[-1] + 1 :]]
 
 
 def _middle(low: Array, high: Array) -> Array:
