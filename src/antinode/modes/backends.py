@@ -5,7 +5,6 @@ It is chosen by name, openly: nothing that was solved before, and no file on the
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Literal, Protocol
 
 import numpy.typing as npt
@@ -107,12 +106,7 @@ def choose(name: BackendName = "auto") -> Backend:
         If numba's code is missing and cannot be made.
     """
     choice("backend", name, BackendName)
-    return _found(AUTO if name == "auto" else name)
-
-
-@cache
-def _found(name: BackendName) -> Backend:
-    if name == "numpy":
+    if (AUTO if name == "auto" else name) == "numpy":
         from antinode.riccati import readable
 
         return readable
