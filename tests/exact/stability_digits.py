@@ -28,12 +28,24 @@ class Digits:
         table = getattr(self.beam, name)
         if table is None:
             return [mpf(0), mpf(0)]
-        a, b = mpf(float(table[k, 0])), mpf(float(table[k, -1]))
-        return [a + (b - a) * start, (b - a) * share]
+        c = [mpf(float(v)) for v in table[k]]
+        if len(c) == 2:
+            return [c[0] + (c[1] - c[0]) * start, (c[1] - c[0]) * share]
+        a, b, d = c[0], 2 * (c[1] - c[0]), c[0] - 2 * c[1] + c[2]  # control values of a parabola
+        if len(c) == 3:
+            return [a + (b + d * start) * start, (b + 2 * d * start) * share, d * share**2]
+        b, d, e = 3 * (c[1] - c[0]), 3 * (c[0] - 2 * c[1] + c[2]), c[3] - c[0] + 3 * (c[1] - c[2])
+        return [
+            a + (b + (d + e * start) * start) * start,
+            (b + (2 * d + 3 * e * start) * start) * share,
+            (d + 3 * e * start) * share**2,
+            e * share**3,
+        ]
 
     def __call__(self, omega2, factor):
         mpmath.mp.dps = self.digits
         beam = self.beam
+        assert beam.axial_acceleration == 0
         left, right = (mpf(v) * factor for v in beam.following())
         held = beam.ends.left == "clamped"
         z = [[0, 0, 1, 0], [0, 0, 0, 1]] if held else [[1, 0, 0, 0], [0, 1, 0, left]]
@@ -48,7 +60,7 @@ class Digits:
         return M[0] * Q[1] - M[1] * Q[0]
 
     def _entries(self, k, start, share, omega2, factor):
-        """Return 1/EI, alpha, beta, mu and s as polynomials of the place in a step, 0 to 1."""
+        """Return 1/EI, alpha, beta, mu, s and the load that turns along a step, 0 to 1."""
         EI, m, N = (
             self._column(name, k, start, share)
             for name in ("bending_stiffness", "mass_per_length", "axial_force")
@@ -58,11 +70,17 @@ class Digits:
         flexibility = [ratio**n / EI[0] for n in range(_TERMS if EI[1] else 1)]
         shear = self.beam.shear_stiffness
         s = mpf(0) if shear is None else 1 / mpf(float(shear[k, 0]))
-        alpha = [1 + s * N[0], s * N[1]]
+        load = [factor * v for v in self._column("tangential_load", k, start, share)]
+        alpha = [s * v for v in N]
+        alpha[0] += 1
         rotary = self._column("rotary_inertia_per_length", k, start, share)
-        beta = [alpha[0] * N[0], alpha[0] * N[1] + alpha[1] * N[0], alpha[1] * N[1]]
-        beta = [b + omega2 * r for b, r in zip(beta, [*rotary, 0], strict=True)]
-        return flexibility, alpha, beta, [omega2 * v for v in m], [s]
+        beta = [mpf(0)] * (2 * len(N) - 1)
+        for i, a in enumerate(alpha):
+            for j, b in enumerate(N):
+                beta[i + j] += a * b
+        for i, r in enumerate(rotary):
+            beta[i] += omega2 * r
+        return flexibility, alpha, beta, [omega2 * v for v in m], [s], load
 
     def flutter(self, factor, omega2):
         """Return factor and omega^2 near a guess where two eigenvalues meet."""
@@ -95,7 +113,7 @@ class Digits:
 
 def _passed(z, entries, h):
     """Return a state at the end of a step of length h."""
-    flexibility, alpha, beta, mu, s = entries
+    flexibility, alpha, beta, mu, s, load = entries
     Y, psi, M, Q = ([v] for v in z)
 
     def times(a, b, n):
@@ -107,7 +125,7 @@ def _passed(z, entries, h):
             times(alpha, psi, n) - times(s, Q, n),
             times(flexibility, M, n),
             times(alpha, Q, n) - times(beta, psi, n),
-            times(mu, Y, n),
+            times(mu, Y, n) + times(load, psi, n),
         )
         for series, value in zip((Y, psi, M, Q), new, strict=True):
             series.append(share * value)

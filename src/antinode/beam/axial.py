@@ -16,9 +16,9 @@ from antinode.arrays import Array, Integers
 from antinode.errors import InputError
 
 from . import curves
-from .attachments import Joint, Spring, on_beam
+from .attachments import Joint, on_beam
 from .beam import Beam
-from .families import LONGITUDINAL
+from .loads.axial_supports import axial_supports
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _POINTS, _WEIGHTS = (_POINTS + 1) / 2, _WEIGHTS / 2
@@ -93,18 +93,6 @@ def apply_loads(beam: Beam, loads: AxialLoads) -> Beam:
         axial_acceleration=beam.axial_acceleration + body,
         offset_weight=loads.offset_weight,
     )
-
-
-def axial_supports(beam: Beam) -> Array:
-    """Return the axial stiffness to ground at every breakpoint [N/m], infinite at fixed ends."""
-    stiffness = np.zeros(len(beam.x))
-    left, right = beam.ends.of(LONGITUDINAL)
-    stiffness[0] += np.inf if left == "fixed" else 0.0
-    stiffness[-1] += np.inf if right == "fixed" else 0.0
-    for item in beam.attachments:
-        if isinstance(item, Spring):
-            stiffness[int(np.argmin(np.abs(beam.x - item.x)))] += item.axial
-    return stiffness
 
 
 def _steps(beam: Beam, forces: Array, held: Array, body: float) -> Array:

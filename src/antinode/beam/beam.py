@@ -38,8 +38,9 @@ from .attachments import (
     springs_hold,
 )
 from .checks import LOGARITHMIC, TABLES, ShearForm, Theory, check, given
-from .ends import FREE, Ends
+from .ends import FREE, Ends, lateral_freedoms
 from .families import BENDING, FAMILIES, FamilyName, tells
+from .loads.turning import with_their_force
 from .mass import moments_of_part, shifted
 from .profile import interpolated
 from .representation import make_chain
@@ -90,9 +91,12 @@ class Beam(BeamMethods, ByValue):
         Of an elastic foundation, lateral [N/m^2].
     added_mass_per_length : array, shape (n, 2), optional
         Of water that moves with Y [kg/m]: no weight, no inertia along the axis.
+    tangential_load : array, shape (n, 2), optional
+        The part of dN/dx by loads along the beam that turn with its section [N/m], along +x; N
+        holds what they leave. `from_stations` works N out of it and of what holds the ends along
+        the axis where no `axial_force` is given.
     loss_factor : array, shape (n, 2), optional
-        Of EI, kGA, EA and GJ: for responses and complex modes; natural frequencies are those
-        without.
+        Of EI, kGA, EA and GJ: for responses and complex modes.
     theory : {"euler_bernoulli", "timoshenko"}, optional
         Default: Timoshenko's where `shear_stiffness` or `rotary_inertia_per_length` is given.
         Euler-Bernoulli's leaves both out.
@@ -145,6 +149,7 @@ class Beam(BeamMethods, ByValue):
     foundation_stiffness: Array | None = None
     added_mass_per_length: Array | None = None
     loss_factor: Array | None = None
+    tangential_load: Array | None = None
     theory: Theory | None = None
     shear_form: ShearForm = "haringx"
     attachments: tuple[Attachment, ...] = ()
@@ -175,6 +180,7 @@ class Beam(BeamMethods, ByValue):
             foundation_stiffness: npt.ArrayLike | None = None,
             added_mass_per_length: npt.ArrayLike | None = None,
             loss_factor: npt.ArrayLike | None = None,
+            tangential_load: npt.ArrayLike | None = None,
             theory: Theory | None = None,
             shear_form: ShearForm = "haringx",
             attachments: Sequence[Attachment] = (),
@@ -225,7 +231,7 @@ class Beam(BeamMethods, ByValue):
         **columns
             The beam's other tables in the same way: `radius_of_gyration`, `torsional_stiffness`
             and `polar_inertia_per_length`, `shear_stiffness`, `rotary_inertia_per_length`,
-            `foundation_stiffness`, `added_mass_per_length`, `loss_factor`.
+            `foundation_stiffness`, `added_mass_per_length`, `loss_factor`, `tangential_load`.
         """
         if unknown := sorted(columns.keys() - set(TABLES)):
             raise TypeError(f"a beam has no column {unknown[0]!r}; it may have {', '.join(TABLES)}")
@@ -235,7 +241,7 @@ class Beam(BeamMethods, ByValue):
         if not {"mass_per_length", "bending_stiffness"} <= given.keys():
             raise InputError("mass_per_length and bending_stiffness are needed at every station")
         stations, tables = tables_at_stations(as_column("x", x), given, interpolation)
-        return cls(
+        made = cls(
             stations,
             **tables,
             interpolation=interpolation,
@@ -244,6 +250,7 @@ class Beam(BeamMethods, ByValue):
             shear_form=shear_form,
             name=name,
         )
+        return with_their_force(made) if made.loads_turn and axial_force is None else made
 
     @property
     def length(self) -> float:
@@ -362,12 +369,19 @@ class Beam(BeamMethods, ByValue):
     @cached_property
     def is_unloaded(self) -> bool:
         """Whether no axial force acts anywhere."""
-        return self.axial_acceleration == 0.0 and not np.any(self.axial_force)
+        forces = np.any(self.axial_force) or self.loads_turn
+        return self.axial_acceleration == 0.0 and not forces
+
+    @property
+    def loads_turn(self) -> bool:
+        """Whether loads along the beam turn with its section."""
+        return self.tangential_load is not None and bool(np.any(self.tangential_load))
 
     def without_axial_force(self) -> Beam:
         """Return the same beam with N = 0 everywhere."""
         none = np.zeros_like(self.axial_force)
-        return replace(self, axial_force=none, axial_acceleration=0.0, end_force=None)
+        no_load = {"axial_acceleration": 0.0, "end_force": None, "tangential_load": None}
+        return replace(self, axial_force=none, **no_load)  # type: ignore[arg-type]
 
     def reversed(self) -> Beam:
         """Return the beam read from the other end.
@@ -434,7 +448,7 @@ class Beam(BeamMethods, ByValue):
         if self.end_force is not None:
             return self.end_force
         table, a = self.axial_force, self.axial_acceleration
-        return float(table[0, 0]), float(table[-1, 1]) + a * self.mass
+        return float(table[0, 0]), float(table[-1, -1]) + a * self.mass
 
     def points(
         self, family: FamilyName, first: Integers | None = None
@@ -483,13 +497,4 @@ class Beam(BeamMethods, ByValue):
         if law.size == 2:
             return np.zeros((0, 2)) if any(rows for _, rows in held) else np.array([[1.0, 0.0]])
         places = {x for x, components in held if 0 in components}
-        return _lateral_freedoms(places, any(1 in components for _, components in held))
-
-
-def _lateral_freedoms(places: set[float], slope_held: bool) -> Array:
-    """Return the motions ``a + b x`` that are zero at some places, however near they are."""
-    if len(places) + slope_held >= 2:
-        return np.zeros((0, 2))
-    if slope_held:
-        return np.array([[1.0, 0.0]])
-    return np.array([[-x, 1.0] for x in places]) if places else np.eye(2)
+        return lateral_freedoms(places, any(1 in components for _, components in held))

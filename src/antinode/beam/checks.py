@@ -105,7 +105,7 @@ def _check_table(name: str, values: Array, n: int) -> None:
             f"{name} has shape {values.shape}; {n} intervals need shape ({n}, 2), or ({n}, p + 1) "
             "for the control values of polynomials"
         )
-    least = -np.inf if name == "axial_force" else 0.0
+    least = -np.inf if name in _SIGNED else 0.0
     if least < values.min() and values.max() < np.inf:  # no NaN: every table may have these
         return
     ok = allowed_values(name, values)
@@ -142,6 +142,7 @@ TABLES = (
     "foundation_stiffness",
     "added_mass_per_length",
     "loss_factor",
+    "tangential_load",
 )
 
 _MAY_BE_ZERO = (
@@ -151,8 +152,9 @@ _MAY_BE_ZERO = (
     "loss_factor",
 )
 _MAY_BE_INFINITE = ("shear_stiffness",)
+_SIGNED = "axial_force", "tangential_load"
 ALLOWED = {
-    "axial_force": "finite",
+    **dict.fromkeys(_SIGNED, "finite"),
     **dict.fromkeys(_MAY_BE_ZERO, "zero or positive, and finite"),
     **dict.fromkeys(_MAY_BE_INFINITE, "positive, or inf"),
 }
@@ -164,7 +166,7 @@ def allowed_values(name: str, values: Array) -> npt.NDArray[np.bool_]:
     if name in _MAY_BE_INFINITE:
         return np.asarray(values > 0)
     finite = np.isfinite(values)
-    if name == "axial_force":
+    if name in _SIGNED:
         return finite
     return np.asarray(finite & ((values >= 0) if name in _MAY_BE_ZERO else (values > 0)))
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from antinode.arguments import choice, numbers
+from antinode.arrays import Array
 from antinode.errors import InputError
 
 from .families import FAMILIES, FamilyName
@@ -106,3 +109,12 @@ def check_follower(name: str, share: float, end: str) -> None:
 
 FREE = Ends()
 """Both ends free: the default."""
+
+
+def lateral_freedoms(places: set[float], slope_held: bool) -> Array:
+    """Return the motions ``a + b x`` that are zero at some places, however near they are."""
+    if len(places) + slope_held >= 2:
+        return np.zeros((0, 2))
+    if slope_held:
+        return np.array([[1.0, 0.0]])
+    return np.array([[-x, 1.0] for x in places]) if places else np.eye(2)

@@ -140,7 +140,7 @@ FAMILIES: Mapping[FamilyName, Family] = {
             Quantity("Q_y", "N", "lateral force M' + N Y'"),
         ),
         freedoms=(1, 5),
-        more=(*TIMOSHENKO, "foundation_stiffness", "added_mass_per_length"),
+        more=(*TIMOSHENKO, "foundation_stiffness", "added_mass_per_length", "tangential_load"),
         directions=("lateral", "moment"),
     ),
     LONGITUDINAL: Family(

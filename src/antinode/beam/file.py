@@ -34,6 +34,7 @@ from .checks import ALLOWED, ShearForm, Theory, allowed_values
 from .curves import total
 from .ends import AxialEnd, End, Ends, TorsionEnd
 from .limits import check_limits
+from .loads.turning import with_their_force
 from .parts import MassTable, check_on_body
 from .rotation import apply_rotation
 from .sections.drawn import OTHERS, drawn_beam
@@ -58,6 +59,7 @@ COLUMNS = (
     "foundation_stiffness",
     "added_mass_per_length",
     "loss_factor",
+    "tangential_load",
 )
 """Of stations, without those of sections."""
 ALL_COLUMNS = (*COLUMNS, *DIMENSIONS)
@@ -148,6 +150,11 @@ class BeamStations(SectionColumns):
     )
     loss_factor: Annotated[Array, Column("")] | None = Field(
         None, description="of EI, kGA, EA and GJ [-]; for responses and complex modes only"
+    )
+    tangential_load: Annotated[Array, Column("N/m")] | None = Field(
+        None,
+        description="load along +x that turns with the section [N/m]; without axial_force N "
+        "follows from it and from what holds the beam axially",
     )
 
     @model_validator(mode="after")
@@ -274,6 +281,8 @@ class BeamFile(BeamMethods, Frozen):
         beam = self._bare().with_attachments(*self.table.attachments())
         for part in self.table.masses:
             beam = _with_part(beam, part)
+        if beam.loads_turn and self.table.stations.axial_force is None:
+            beam = with_their_force(beam)
         if self.table.loads is not None:
             beam = apply_loads(beam, self.table.loads.loads())
         turning = self.table.rotation
@@ -289,6 +298,8 @@ class BeamFile(BeamMethods, Frozen):
             "shear_form": table.shear_form,
             "name": table.name,
         }
+        if stations.tangential_load is not None:  # its N when everything is attached
+            choices["axial_force"] = np.zeros(len(stations.x))
         if table.material is None:
             return Beam.from_stations(stations.x, **choices | stations.given(COLUMNS[1:]))
         columns = stations.dimensions() | stations.given(OTHERS)

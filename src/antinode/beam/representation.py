@@ -103,6 +103,8 @@ def _values(beam: Beam, family: FamilyName, loss: float | None = None) -> dict[s
         values["mass"] = lambda k, t: own(k, t) + added(k, t)
     if "foundation_stiffness" in used:
         values["foundation"] = table("foundation_stiffness")
+    if "tangential_load" in used and beam.loads_turn:
+        values["tangential"] = table("tangential_load")
     if "rotary_inertia_per_length" in used:
         values["rotary_inertia"] = table("rotary_inertia_per_length")
     elif "radius_of_gyration" in used:

@@ -41,6 +41,8 @@ def _turned(beam: Beam) -> Beam:
         name: None if (v := getattr(beam, name)) is None else v[::-1, ::-1].copy()
         for name in TABLES
     }
+    if beam.tangential_load is not None:
+        flip["tangential_load"] = -flip["tangential_load"]
     total = beam.x[-1] + beam.x[0]
     items: list[Attachment] = []
     for item in beam.attachments:

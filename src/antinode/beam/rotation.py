@@ -19,8 +19,8 @@ from antinode.errors import InputError
 
 from . import curves
 from .attachments import PointMass, Spring
-from .axial import axial_supports
 from .beam import Beam
+from .loads.axial_supports import axial_supports
 
 Plane = Literal["in_plane", "out_of_plane"]
 

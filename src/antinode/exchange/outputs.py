@@ -93,6 +93,7 @@ def _slender(result: ModalResult) -> tuple[ModalResult, Notes]:
         theory="euler_bernoulli",
         foundation_stiffness=None,
         added_mass_per_length=None,
+        tangential_load=None,
     )
     number = max((mode.number for mode in result.modes), default=1)
     solved = solve_modes(

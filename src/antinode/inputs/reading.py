@@ -46,6 +46,7 @@ COLUMN_UNITS = {
     "foundation_stiffness": "N/m^2",
     "added_mass_per_length": "kg/m",
     "loss_factor": "",
+    "tangential_load": "N/m",
     "outer_diameter": "m",
     "width": "m",
     "height": "m",

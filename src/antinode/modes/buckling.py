@@ -18,10 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from antinode.beam.attachments import refuse_feedback
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
+from antinode.beam.loads.turning import refuse_complex
 from antinode.errors import ComputationError, InputError
 from antinode.riccati.bracket import Sample, narrow
 from antinode.riccati.chain import Chain
@@ -112,7 +112,7 @@ def buckling(
             "buckling load of fixed directions, do not hold then; set left_follower and "
             "right_follower to 0 for that load"
         )
-    refuse_feedback(beam.attachments, BENDING, "buckling loads")
+    refuse_complex(beam, BENDING, "buckling loads")
     beam = beam.with_breakpoints(zeros_of_force(beam))
     solver, rigid = choose(backend), rigid_modes(beam, BENDING)
     factors = range_of_factors(beam)

@@ -17,10 +17,10 @@ import numpy as np
 
 from antinode.arguments import ByValue, whole, within
 from antinode.arrays import Array, Integers
-from antinode.beam.attachments import refuse_feedback
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FAMILIES
 from antinode.beam.limits import out_of_range_is_an_error
+from antinode.beam.loads.turning import refuse_complex
 from antinode.beam.representation import LIMITS
 from antinode.riccati.chains import Tables
 from antinode.riccati.points import Point
@@ -133,7 +133,7 @@ def natural_frequencies(
     modes = whole("modes", modes, 500)
     tolerance = within("tolerance", tolerance, 1e-12, 0.1, " (relative)")
     beam = problem if isinstance(problem, Beam) else _beam_of(problem)
-    refuse_feedback(beam.attachments, BENDING, "undamped frequencies")
+    refuse_complex(beam, BENDING, "undamped frequencies")
     found = _directly(choose(backend), beam, modes, tolerance)
     return found or _by_modes(beam, modes, tolerance, backend)
 

@@ -83,12 +83,16 @@ def under(beam: Beam, factor: float) -> Beam:
     """Return a beam under a factor times its axial force."""
     N, a, ends = factor * beam.axial_force, factor * beam.axial_acceleration, beam.end_force
     outside = None if ends is None else (factor * ends[0], factor * ends[1])
-    return replace(beam, axial_force=N, axial_acceleration=a, end_force=outside)
+    load = None if beam.tangential_load is None else factor * beam.tangential_load
+    return replace(
+        beam, axial_force=N, axial_acceleration=a, end_force=outside, tangential_load=load
+    )
 
 
 def loaded_chain(chain: Chain, factor: float) -> Chain:
     """Return the chain under `factor` times its axial force."""
-    powers = {"axial_force": factor, "shear_turn": factor, "shear_work": factor * factor}
+    powers = dict.fromkeys(("axial_force", "shear_turn", "tangential"), factor)
+    powers["shear_work"] = factor * factor
     shared = powers.keys() & chain.columns.keys()
     columns = {name: powers[name] * chain.columns[name] for name in shared}
     points = tuple(replace(p, own_load=factor * p.own_load) for p in chain.points)

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from antinode.arrays import Array, distinct
-from antinode.beam.attachments import refuse_feedback
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
+from antinode.beam.loads.turning import refuse_complex
 from antinode.riccati.chain import Chain, largest_wave_number, omega2_scale
 from antinode.riccati.convergence import extrapolate, within
 from antinode.riccati.roots import Eigenvalue
@@ -138,7 +138,7 @@ def solve_family(
     beam: Beam, family: FamilyName, modes: int, tolerance: float, solver: Solver
 ) -> Solved:
     """Refine until the estimated error of every wanted frequency is within the tolerance."""
-    refuse_feedback(beam.attachments, family, "undamped modes")
+    refuse_complex(beam, family, "undamped modes")
     wanted = modes + len(rigid_modes(beam, family))
     zeros = exact_zeros(beam, family)
     most = max(min(_MOST_SEGMENTS, _MOST_WORK // wanted), _LEAST_PER_MODE * wanted)

@@ -16,6 +16,7 @@ from antinode.beam.attachments import PointMass
 from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
 from antinode.beam.families import BENDING, FAMILIES, FamilyName
+from antinode.beam.loads.turning import turning_load, turning_load_left
 from antinode.riccati.chain import Chain
 from antinode.riccati.points import Point
 
@@ -57,7 +58,7 @@ def turns_freely(beam: Beam, name: FamilyName) -> bool:
     """
     freedoms = beam.freedoms(name)
     turning = len(freedoms) == 2 or (len(freedoms) == 1 and not _is_translation(freedoms[0], beam))
-    if not any(beam.following(name)) or not turning:
+    if not (any(beam.following(name)) or beam.loads_turn) or not turning:
         return False
     own = _carried_freely(beam, name) if len(freedoms) == 2 else _carried_about_pivot(beam, name)
     if own is None:
@@ -67,7 +68,13 @@ def turns_freely(beam: Beam, name: FamilyName) -> bool:
         isinstance(item, PointMass) and item.offset for item in beam.attachments
     )
     off = float(np.max(np.abs(N - own)))
-    return off <= _ROUNDING * float(np.max(np.abs(N))) and through_centres
+    return off <= _ROUNDING * max(float(np.max(np.abs(N))), _turning_size(beam)) and through_centres
+
+
+def _turning_size(beam: Beam) -> float:
+    """Return the size of the loads along a beam that turn with it [N]."""
+    load = beam.tangential_load
+    return 0.0 if load is None else float(np.max(np.abs(load))) * beam.length
 
 
 def _places(beam: Beam) -> tuple[Integers, Array]:
@@ -79,10 +86,13 @@ def _places(beam: Beam) -> tuple[Integers, Array]:
 def _carried_freely(beam: Beam, name: FamilyName) -> Array | None:
     """Return N of a free body which carries its inertia alone, None where ends do not follow."""
     (left, right), outside = beam.following(name), beam.end_forces
-    if max(abs(left - outside[0]), abs(right - outside[1])) > _ROUNDING * max(map(abs, outside)):
+    size = max(*map(abs, outside), _turning_size(beam))
+    if max(abs(left - outside[0]), abs(right - outside[1])) > _ROUNDING * size:
         return None
     k, share = _places(beam)
-    return np.asarray(left + (right - left) / beam.mass * beam.mass_left_of(k, share))
+    load, total = turning_load_left(beam, k, share), turning_load(beam)
+    carried = (right - left - total) / beam.mass * beam.mass_left_of(k, share)
+    return np.asarray(left + load + carried)
 
 
 def _carried_about_pivot(beam: Beam, name: FamilyName) -> Array | None:
@@ -96,10 +106,12 @@ def _carried_about_pivot(beam: Beam, name: FamilyName) -> Array | None:
     if held_right != "free":
         right = left
     pivot, nodes = pivot_of(beam) or 0.0, beam.x - beam.x[0]
-    if left != right and _node_at(pivot, nodes, points) is None:
+    k, share = _places(beam)
+    load = turning_load_left(beam, k, share)
+    left_N, right_N = left + load, right + load - turning_load(beam)
+    if (left != right or beam.loads_turn) and _node_at(pivot, nodes, points) is None:
         return None
-    k, _ = _places(beam)
-    return np.where(nodes[k + 1] <= pivot + _NEAR * beam.length, left, right)
+    return np.where(nodes[k + 1] <= pivot + _NEAR * beam.length, left_N, right_N)
 
 
 def _node_at(pivot: float, nodes: Array, points: Sequence[Point]) -> Point | None:
@@ -116,12 +128,17 @@ def rigid_rotation(chain: Chain, pivot: float | None = None) -> float:
 
     The axial force turns it on, what follows at the ends turns it back:
     ``J omega^2 = -int N dx + kappa_right (L - x_p) + kappa_left x_p`` about the pivot x_p, which is
-    the centre of mass where nothing holds the chain.
+    the centre of mass where nothing holds the chain; loads along the axis that turn with the
+    section take ``int t (x - x_p) dx`` from it.
     """
     nodes = chain.nodes
     about = centre_of_mass(chain) if pivot is None else pivot
     left, right = chain.following
-    turning = -float(chain.axial_force @ chain.length) + right * (nodes[-1] - about) + left * about
+    load = chain.columns.get("tangential", np.zeros(1)) * chain.length
+    own = float(load @ (nodes[1:] + nodes[:-1] - 2 * about)) / 2
+    turning = (
+        -own - float(chain.axial_force @ chain.length) + right * (nodes[-1] - about) + left * about
+    )
     return float(turning) / rotary_inertia(chain, about)
 
 

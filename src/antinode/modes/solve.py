@@ -121,17 +121,20 @@ def _complex(beam: Beam, family: FamilyName, damping: Damping, method: Method) -
     """
     choice("damping", damping, Damping)
     feedback = feeds_back(beam.attachments, family)
+    turning = FAMILIES[family].law.has_axial_force and beam.loads_turn
     if method == "tmm" and damping == "complex":
         raise InputError(
             "method = 'tmm' scans real omega^2 and has no complex modes; leave it out for those"
         )
-    if feedback and (damping == "none" or method == "tmm"):
+    if (feedback or turning) and (damping == "none" or method == "tmm"):
         asked = "damping = 'none'" if damping == "none" else "method = 'tmm'"
+        what = "a point feedback" if feedback else "a tangential_load that turns with the section"
         raise InputError(
-            f"a point feedback acts on the beam, and {asked} asks for modes that know nothing of "
-            "it; leave that out for complex modes, or remove the feedback"
+            f"{what} acts on the beam, and {asked} asks for modes that know nothing of "
+            "it; leave that out for complex modes, or remove it from the beam"
         )
     own = damping == "auto" and method != "tmm" and is_damped(beam.attachments, family)
+    own = own or turning
     return damping == "complex" or own
 
 

@@ -126,6 +126,7 @@ _SPOKEN = {
     "foundation_stiffness": "foundation",
     "added_mass_per_length": "added mass",
     "loss_factor": "loss factor",
+    "tangential_load": "load that turns",
 }
 
 

@@ -10,6 +10,8 @@ import numpy as np
 
 from antinode.beam.attachments import PointFeedback
 from antinode.beam.beam import Beam
+from antinode.beam.families import FAMILIES
+from antinode.beam.loads.turning import refuse_turning
 from antinode.errors import ComputationError
 from antinode.modes.solve import HasBeam, beam_of
 
@@ -56,6 +58,8 @@ def solve_response(problem: Problem | str | Path) -> Result:
         If no trustworthy answer could be computed.
     """
     own = problem if isinstance(problem, Problem) else load_response(problem)
+    if any(FAMILIES[drive.family].law.has_axial_force for drive in own.file.drives):
+        refuse_turning(own.beam, "responses")
     growing = unstable(own.beam, own.file.drives, own.damping)
     names = ", ".join(f"{m.name} grows at {m.growth_rate_per_s:.4g} /s" for m in growing[:3])
     if own.file.equipment and any(mode.number for mode in growing):  # not the attitude alone

@@ -410,7 +410,7 @@ class Evaluation(NamedTuple):
     """What one pass over the chain tells at each omega^2."""
 
     below: Integers
-    """Number of eigenvalues below omega^2, shape (k,); -1 where end forces follow."""
+    """Number of eigenvalues below omega^2, shape (k,); -1 where a force follows."""
     characteristic: Array
     """Characteristic function, bounded and without poles, shape (k,)."""
 
@@ -445,7 +445,7 @@ def _evaluate(fine: Chain, omega2: Array, largest: float) -> Evaluation:
     frames = sweep(steps, end_frame(fine, 0, units))
     last = frames.F[-1]
     value = frames.factor * characteristic(fine, last, units)
-    if fine.follows:
+    if fine.follows or "tangential" in fine.columns:
         return Evaluation(np.full(len(omega2), -1), value)
     at_end = fine.law.negative_at_end(last, fine.right)
     below = negative_at_nodes(fine.law, steps, frames) + at_end

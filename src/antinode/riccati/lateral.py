@@ -13,12 +13,16 @@ mass equal to the stiffness:
 
     mass = int m Y^2 + rho I psi^2,   stiffness = int M^2/EI + s Q^2 + k Y^2 - (N + sN^2) psi^2
 
+A load t along the axis that turns with the section adds ``Q' = ... + t psi`` (column `tangential`);
+its adjoint ``M' = ... - t Y`` (`tangential_adjoint`). No energy goes with it, and no count.
+
 Bazant, Beghini, J. Appl. Mech. 72 (2005) 785; Attard, Hunt, Int. J. Solids Struct. 45 (2008) 4322.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,7 +31,7 @@ from .arrays import Array, Integers
 from .frames import minor
 from .law import Columns, Forms, Law, LawName, Squares, Units
 from .points import Point, lateral_energies, lateral_joint, lateral_load
-from .segment import lateral_transfer, wave_number
+from .segment import following_transfer, lateral_transfer, wave_number
 
 if TYPE_CHECKING:
     from .chain import Chain
@@ -79,7 +83,11 @@ class Lateral(Law):
     def wave_number(self, chain: Chain, omega2: float) -> Array:
         """Bound the four roots of equation 50 for all omega^2 of this size and less."""
         c = chain.columns
-        inertia = c["mass"] * abs(omega2)
+        inertia, along = c["mass"] * abs(omega2), _tangential(c)
+        if along is not None:
+            turn = c.get("shear_turn", _NONE)
+            extra = np.cbrt(np.abs((1 + turn) * along / c["stiffness"]))
+            return self.wave_number(replace(chain, columns=without_tangential(c)), omega2) + extra
         if not _has_more(c):
             return wave_number(c["axial_force"] / c["stiffness"], inertia / c["stiffness"])
         s, turn, work, rotary, foundation = _more(c)
@@ -148,12 +156,38 @@ class Lateral(Law):
         N = columns["axial_force"] * (scale**2 / stiffness)
         inertia = columns["mass"] * (omega2 * scale**4 / stiffness)
         h, EI = length / scale, columns["stiffness"] / stiffness
+        along = _tangential(columns)
+        if along is not None:
+            return self._following(h, EI, N, inertia, along, columns, omega2, units)
         if not _has_more(columns):
             return lateral_transfer(h, EI, N, inertia)
         s, turn, work, rotary, foundation = _more(columns)
         beta = N + (work + rotary * omega2) * (scale**2 / stiffness)
         mu = inertia - foundation * (scale**4 / stiffness)
         return lateral_transfer(h, EI, beta, mu, s * (stiffness / scale**2), 1 + turn)
+
+    def _following(
+        self,
+        h: Array,
+        EI: Array,
+        N: Array,
+        inertia: Array,
+        along: Array,
+        columns: Columns,
+        omega2: Array,
+        units: Units,
+    ) -> Array:
+        """Return the transfer where a load turns; of the adjoint ``J U^-T J^-1``."""
+        scale, stiffness = units
+        s, turn, work, rotary, foundation = _more(columns)
+        beta = N + (work + rotary * omega2) * (scale**2 / stiffness)
+        mu = inertia - foundation * (scale**4 / stiffness)
+        t, s = along * (scale**3 / stiffness), s * (stiffness / scale**2)
+        if "tangential" in columns:
+            return following_transfer(h, EI, beta, mu, t, s, 1 + turn)
+        back = following_transfer(-h, EI, beta, mu, t, s, 1 + turn)
+        J = self.symplectic
+        return np.asarray(-J @ np.swapaxes(back, -1, -2) @ J)
 
     def state_units(self, units: Units) -> Array:
         """Return those of ``[Y/l, psi, M l/EI0, Q l^2/EI0]``."""
@@ -202,6 +236,16 @@ class Lateral(Law):
 
 
 _SHARE = 0.1
+
+
+def _tangential(columns: Columns) -> Array | None:
+    """Return the load along the axis that turns with the section, of either problem."""
+    return columns.get("tangential", columns.get("tangential_adjoint"))
+
+
+def without_tangential(columns: Columns) -> dict[str, Array]:
+    """Return the columns of the self-adjoint rest."""
+    return {name: v for name, v in columns.items() if not name.startswith("tangential")}
 
 
 def _has_more(columns: Columns) -> bool:

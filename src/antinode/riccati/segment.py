@@ -12,6 +12,8 @@ flexibility s = 1/kGA and the rotary inertia rho I (Haringx; docs/theory/beam.md
 Euler-Bernoulli has s = 0, rho I = 0: psi = Y', Q = M' + N Y' (equation 48). A is Hamiltonian, and
 its characteristic equation biquadratic: ``lambda^4 + b lambda^2 - c = 0``, ``b = s mu + f beta``,
 ``c = f mu kappa``, ``kappa = alpha^2 - s beta`` (equations 50-51 for s = 0).
+Where a load of t per length turns with the section, ``Q' = mu Y + t psi``, and
+``- f alpha t lambda`` joins the characteristic equation.
 A bar has the state ``[X, Q]`` with ``Q = -EA X'``, a shaft ``[phi, T]`` with ``T = GJ phi'``.
 
 The paper writes U = B(x) B(0)^-1 with the four roots of the quartic (equation 61). Here U is
@@ -132,6 +134,106 @@ def lateral_transfer(
     U[..., 2, 1] = kappa * mu * g - beta * g2
     U[..., 3, 0] = mu * (g2 + of_force * g)
     return U
+
+
+def following_transfer(
+    h: Array,
+    stiffness: Array,
+    turning: Array,
+    inertia: Array,
+    load: Array,
+    shear: Array | float = 0.0,
+    coupling: Array | float = 1.0,
+) -> Array:
+    """Return the lateral transfer matrix where a load along the axis turns with the section.
+
+    With ``A`` of this module and ``A_Q,psi = t``, by Cayley and Hamilton from the powers of A.
+
+    Parameters
+    ----------
+    h, stiffness, turning, inertia, shear, coupling : array
+        As of `lateral_transfer`.
+    load : array
+        t, along +x [N/m].
+
+    Returns
+    -------
+    array, shape (..., 4, 4)
+    """
+    f, beta, mu, t, s, alpha = 1 / stiffness, turning, inertia, load, shear, coupling
+    b, c = s * mu + f * beta, f * mu * (alpha * alpha - s * beta)
+    g, g1, g2, g3 = _fundamental_of_four(h, b, f * alpha * t, c)
+    weights = g3 + b * g1 - f * alpha * t * g, g2 + b * g, g1, g
+    U = np.empty((*g.shape, 16), g.dtype)
+    for k, entries in enumerate(zip(*_powers(f, beta, mu, t, s, alpha, b), strict=True)):
+        U[..., k] = sum(w * entry for w, entry in zip(weights, entries, strict=True))
+    return U.reshape(*g.shape, 4, 4)
+
+
+def _powers(
+    f: Array,
+    beta: Array,
+    mu: Array,
+    t: Array,
+    s: Array | float,
+    alpha: Array | float,
+    b: Array,
+) -> tuple[tuple[Array | float, ...], ...]:
+    """Return the 16 entries of 1, A, A^2 and A^3, row by row."""
+    one, zero = 1.0, 0.0
+    return (
+        (
+            one,
+            zero,
+            zero,
+            zero,
+            zero,
+            one,
+            zero,
+            zero,
+            zero,
+            zero,
+            one,
+            zero,
+            zero,
+            zero,
+            zero,
+            one,
+        ),
+        (zero, alpha, zero, -s, zero, zero, f, zero, zero, -beta, zero, alpha, mu, t, zero, zero),
+        (
+            *(-s * mu, -s * t, alpha * f, zero),
+            *(zero, -f * beta, zero, f * alpha),
+            *(alpha * mu, alpha * t, -f * beta, zero),
+            *(zero, alpha * mu, f * t, -s * mu),
+        ),
+        (
+            *(zero, -alpha * b, -s * f * t, f * alpha * alpha + s * s * mu),
+            *(f * alpha * mu, f * alpha * t, -f * f * beta, zero),
+            *(zero, f * beta * beta + alpha * alpha * mu, f * alpha * t, -alpha * b),
+            *(-s * mu * mu, -t * b, alpha * f * mu, f * alpha * t),
+        ),
+    )
+
+
+def _fundamental_of_four(h: Array, b: Array, d: Array, c: Array) -> tuple[Array, ...]:
+    """Return what `fundamental` does of a quartic ``lambda^4 + b lambda^2 - d lambda - c``."""
+    h, two, three, four = np.broadcast_arrays(h, -b * h * h, d * h**3, c * h**4)
+    half = np.abs(two) / 2
+    step = float(np.max(np.sqrt(half + np.sqrt(half**2 + np.abs(four))) + np.cbrt(np.abs(three))))
+    terms = 2 * _terms_needed(step)
+    p = np.zeros((terms, *h.shape), np.result_type(two, three, four))
+    p[0] = 1.0
+    for k in range(2, terms):
+        p[k] = two * p[k - 2]
+        if k > 2:
+            p[k] += three * p[k - 3]
+        if k > 3:
+            p[k] += four * p[k - 4]
+    n = np.arange(terms)
+    rows = np.array([[1 / math.factorial(k + j) for k in n] for j in (3, 2, 1, 0)])
+    sums = (rows @ p.reshape(terms, -1)).reshape(4, *h.shape)
+    return h**3 * sums[0], h**2 * sums[1], h * sums[2], sums[3]
 
 
 def wave_transfer(h: Array, stiffness: Array, inertia: Array, sign: float) -> Array:

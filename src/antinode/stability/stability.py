@@ -85,7 +85,7 @@ def stability(
         )
     segments = len(beam.chain(BENDING).length)
     solver = choose(backend or for_one(segments, EVALUATIONS))
-    along = _followed if any(beam.following()) else _counted
+    along = _followed if any(beam.following()) or beam.loads_turn else _counted
     found = along(beam, most, tolerance, solver)
     damped = damped_loss(beam, found) if dampers else None
     return found if damped is None else replace(found, damped=damped)

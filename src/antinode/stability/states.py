@@ -6,7 +6,7 @@ and flutters off the axis, in pairs. Eigenvalues that are zero by the supports s
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -14,13 +14,16 @@ from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.modes.backends import Backend
+from antinode.modes.damped.family import on_chain
 from antinode.modes.following import Following
 from antinode.modes.loading import Loading, loading
 from antinode.modes.rigid import exact_zeros, pivot_of, rigid_modes, rigid_rotation
 from antinode.riccati.arrays import Complex
 from antinode.riccati.chain import Chain
+from antinode.riccati.lateral import without_tangential
 
 _MEETING = 0.5  # gap over the middle of two eigenvalues
+_ROUNDING = 1e-12  # of s
 _TRACE = 1e-300  # what tells where a rotation goes that stands at zero without force
 
 
@@ -108,8 +111,11 @@ class Watcher:
         return np.concatenate([near.pairs, middle[gap < _MEETING * np.abs(middle)]])
 
     def _solve(self, chain: Chain, factor: float, pairs: Complex) -> State:
+        if factor and self.beam.loads_turn:
+            return self._with_loads(chain, factor)
         zeros = self.zeros if factor else len(self.rigid)
-        wanted = len(self.rigid) + self.elastic
+        wanted, own = len(self.rigid) + self.elastic, without_tangential(chain.columns)
+        chain = chain if factor else replace(chain, columns=own)
         found = self.solver.find(chain, wanted, zeros=zeros, pairs=pairs)
         kept = [v for v in found.eigenvalues if v.omega2 != 0.0 or v.imaginary != 0.0]
         real = np.sort([v.omega2 for v in kept if v.imaginary == 0.0])
@@ -119,3 +125,18 @@ class Watcher:
             turn = rigid_rotation(self.load(1.0), pivot_of(self.beam))
             real = np.sort(np.append(real, np.copysign(_TRACE, turn)))
         return State(factor, real, pairs, len(found.eigenvalues), proven)
+
+    def _with_loads(self, chain: Chain, factor: float) -> State:
+        """Return the state where loads along the beam turn: from complex modes, ``-s^2``."""
+        roots = on_chain(self.beam, chain, self.elastic, self.backend)
+        real, pairs = [], []
+        for value in roots.eigenvalues:
+            s, size = value.s, _ROUNDING * abs(value.s) + value.error
+            if s.imag == 0 and s.real > 0:
+                real.append(-(s.real**2))
+            elif s.imag > 0 and abs(s.real) <= size:
+                real.append(s.imag**2)
+            elif s.imag > 0 and s.real > 0:
+                pairs.append(-((-s.conjugate()) ** 2))
+        number = self.zeros + len(real) + 2 * len(pairs)
+        return State(factor, np.sort(real), np.array(pairs, dtype=complex), number, roots.proven)

@@ -25,6 +25,7 @@ from antinode.riccati.convergence import extrapolate
 from antinode.riccati.damped.chain import Damped
 from antinode.riccati.damped.loss import with_loss
 from antinode.riccati.damped.roots import ComplexEigenvalue, ComplexRoots, Finder
+from antinode.riccati.damped.turning import TurningFinder
 from antinode.riccati.roots import CountingError, Eigenvalue
 
 from .rest import AtRest, at_rest
@@ -93,6 +94,15 @@ def solve_damped(
     )
 
 
+def on_chain(beam: Beam, chain: Chain, modes: int, backend: Backend) -> ComplexRoots:
+    """Return the complex eigenvalues of one chain of a beam, without dampers and loss."""
+    points = tuple(
+        replace(p, dashpot=0.0, rotational_dashpot=0.0, feedback_damping=None) for p in chain.points
+    )
+    damped = Damped(replace(chain, points=points))
+    return _roots(damped, at_rest(beam, damped), modes, backend, scales=True)
+
+
 def _roots(
     damped: Damped, rest: AtRest, modes: int, backend: Backend, scales: bool
 ) -> ComplexRoots:
@@ -103,7 +113,8 @@ def _roots(
         return backend.find_eigenvalues(base, number, zeros=rest.base_zeros)
 
     try:
-        finder = Finder(without, of_base, rest.base_zeros, rest.multiplicity)
+        kind = TurningFinder if without.turns else Finder
+        finder = kind(without, of_base, rest.base_zeros, rest.multiplicity)
         found = finder.find(modes)
         return (
             found
@@ -161,6 +172,8 @@ def certificate_dict(roots: ComplexRoots) -> dict[str, Any]:
         "samples": circle.samples,
         "margin": circle.margin,
     }
+    if circle.turning:
+        record["turning"] = circle.turning
     if circle.loss:
         record["loss"] = circle.loss
     region = {"abs_s_below": circle.radius}

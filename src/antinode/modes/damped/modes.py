@@ -23,7 +23,7 @@ from antinode.modes.shapes import (
     on_grid,
 )
 from antinode.riccati.chain import Chain
-from antinode.riccati.damped.chain import Damped
+from antinode.riccati.damped.chain import Damped, adjoint_chain
 from antinode.riccati.damped.energies import Products, products
 from antinode.riccati.damped.shapes import complex_states
 from antinode.riccati.shapes import Energies, split_for
@@ -167,7 +167,8 @@ class _Shapes:
         self.left[:, number:] /= scale[number:, None]
         self.mass = mass * np.abs(scale) ** 2
         self.at_grid: Numbers = on_grid(self.chain, self.states, self.omega2, places)
-        self.left_at_grid: Numbers = on_grid(self.chain, self.left, self.omega2, places)
+        adjoint = adjoint_chain(self.chain)
+        self.left_at_grid: Numbers = on_grid(adjoint, self.left, self.omega2, places)
 
 
 def _on(damped: Damped, chain: Chain) -> tuple[Damped, Chain]:

@@ -31,7 +31,8 @@ class AtRest:
     Attributes
     ----------
     motions : array, shape (n, 2)
-        Rows [a, b] of the motions ``a + b (x - x[0])`` that rest.
+        Rows [a, b] of the motions ``a + b (x - x[0])`` that rest; and the turn of a body that
+        carries its inertia alone (`rigid.turns_freely`).
     free : array, shape (m, 2)
         Those that nothing but the axial force opposes.
     base_zeros : int
@@ -61,7 +62,7 @@ def at_rest(beam: Beam, damped: Damped) -> AtRest:
     adjoint = _annulled(_translations(free) if loaded else free, [m.T for m in K], at)
     number = len(motions)
     if number and loaded and turns_freely(beam, family) and not damped.acting.C.any():
-        return AtRest(motions, own, len(base), 2 * number + 2)
+        return AtRest(own, own, len(base), 2 * number + 2)  # the turn is no eigenvector
     if any(chain.following) or len(adjoint) != number:
         adjoint = motions
     C = sum(

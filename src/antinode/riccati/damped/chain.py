@@ -5,6 +5,9 @@ few displacements q: there the forces are ``-(K + s C) q``. All the rest is self
 chain, whose eigenvalues are real and counted. An end force that turns is a feedback: at the right
 end ``Q = kappa psi`` there (at the left ``-kappa``).
 
+Loads along the axis that turn with the section, ``Q' = ... + t psi``, are of the chain itself; the
+base chain has none, and of the adjoint problem they act on M (`riccati.lateral`).
+
 Stiffness that loses energy is complex: columns times ``1 + i eta``, for ``Im s > 0``.
 """
 
@@ -30,6 +33,7 @@ from antinode.riccati.chain import (
     sweep,
 )
 from antinode.riccati.frames import determinant
+from antinode.riccati.lateral import without_tangential
 from antinode.riccati.laws import Columns
 from antinode.riccati.points import Point, moving
 
@@ -95,7 +99,23 @@ class Damped:
     @cached_property
     def base(self) -> Chain:
         """The self-adjoint rest: springs with the diagonal of every feedback's stiffness."""
-        return replace(self.chain, following=(0.0, 0.0), points=tuple(map(_undamped, self.points)))
+        return replace(
+            self.chain,
+            columns=without_tangential(self.chain.columns),
+            following=(0.0, 0.0),
+            points=tuple(map(_undamped, self.points)),
+        )
+
+    @property
+    def turns(self) -> bool:
+        """Whether loads along the axis turn with the section."""
+        return "tangential" in self.chain.columns
+
+    @property
+    def without_turning(self) -> Damped:
+        """The same without these loads; N stays."""
+        columns = without_tangential(self.chain.columns)
+        return replace(self, chain=replace(self.chain, columns=columns))
 
     @cached_property
     def acting(self) -> Acting:
@@ -137,12 +157,15 @@ class Damped:
         moved = replace(
             self.chain, following=(0.0, 0.0), points=tuple(moving(p, s) for p in self.points)
         )
+        if self.adjoint:
+            moved = adjoint_chain(moved)
         fine = split_long(moved, largest)
         columns = fine.columns
         if self.columns is not None:
             middle = (fine.nodes[1:] + fine.nodes[:-1]) / 2
             owner = np.searchsorted(self.chain.nodes, middle) - 1
-            columns = {name: values[owner] for name, values in self.columns.items()}
+            own = adjoint_columns(self.columns) if self.adjoint else self.columns
+            columns = {name: values[owner] for name, values in own.items()}
         starts, units = block_starts(fine, largest), state_units(fine, omega2)
         beside = {name: values[:, None] for name, values in columns.items()}
         U = fine.law.transfer(fine.length[:, None], beside, omega2, fine.units(omega2))
@@ -171,6 +194,21 @@ class Damped:
         free = [i for i in range(law.size) if i not in law.zeros(fine.left)]
         size = size + logarithm[:, law.zeros(fine.right)].sum(-1) - logarithm[:, free].sum(-1)
         return np.asarray(value), np.asarray(size)
+
+
+def adjoint_chain(chain: Chain) -> Chain:
+    """Return the chain whose states are left eigenvectors, as to loads that turn."""
+    return replace(chain, columns=adjoint_columns(chain.columns)) if _turning(chain) else chain
+
+
+def _turning(chain: Chain) -> bool:
+    return any(name.startswith("tangential") for name in chain.columns)
+
+
+def adjoint_columns(columns: Columns) -> Columns:
+    """Return columns with the load that turns acting on M, or on Q again."""
+    other = {"tangential": "tangential_adjoint", "tangential_adjoint": "tangential"}
+    return {other.get(name, name): values for name, values in columns.items()}
 
 
 def _after_hold(F: Numbers, row: int) -> Array:

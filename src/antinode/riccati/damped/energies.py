@@ -16,7 +16,7 @@ from antinode.riccati.laws import Squares
 from antinode.riccati.points import Point
 from antinode.riccati.shapes import gauss_rule, propagate
 
-from .chain import Damped
+from .chain import Damped, adjoint_chain
 
 
 class Products(NamedTuple):
@@ -48,16 +48,20 @@ def products(damped: Damped, chain: Chain, s: Numbers, right: Numbers, left: Num
     """
     omega2: Numbers = -s * s
     total = np.zeros((2, len(Squares._fields), len(chain.length), len(s)), complex)
+    adjoint, along = adjoint_chain(chain), chain.columns.get("tangential")
+    turned: Numbers = np.zeros(len(s), complex)
     phase = largest_wave_number(damped.chain, float(np.max(np.abs(omega2)))) * chain.length
     for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
         v = propagate(chain, right[:-1], omega2, point * chain.length)
-        w = propagate(chain, left[:-1], omega2, point * chain.length)
+        w = propagate(adjoint, left[:-1], omega2, point * chain.length)
         own = weight * chain.length[:, None]
+        if along is not None:
+            turned = turned + (own[:, 0] * along) @ (w[..., 0] * v[..., 1])
         for i, other in enumerate((w, v.conj())):
             total[i] += own * _polar(lambda z: chain.law.squares(chain.columns, z), other, v)
     forms = chain.law.forms(chain.columns, Squares(*total[0]))
     mass: Numbers = forms.mass
-    stiffness: Numbers = forms.strain - forms.work
+    stiffness: Numbers = forms.strain - forms.work - turned
     size: Numbers = chain.law.forms(chain.columns, Squares(*total[1])).mass
     of_points = [_of_point(chain, point, right, left) for point in damped.base.points]
     for inertia, elastic, own_size in of_points:

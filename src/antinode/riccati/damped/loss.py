@@ -15,7 +15,8 @@ with R the inverse of the base chain's and b_i unit forces
     norm(P^(1/2) R b_i)^2 = T_i = Im(l G_ii)/Im l + sigma S_i
 
 The circle holds as many eigenvalues as without loss, which is proven. For a real s loss by a factor
-has no meaning: there the change of s counts as an error.
+has no meaning: there the change of s counts as an error. Where loads turn with the section
+(`damped.turning`), their own beta makes the norm no larger than 1/(1 - that) times.
 """
 
 from __future__ import annotations
@@ -76,12 +77,14 @@ def largest_beta(damped: Damped, ratio: Ratio, circle: Circle) -> float:
     if bound is None:
         return np.inf
     weight, sigma = bound
+    if circle.turning >= 1:
+        return np.inf
     eta = largest_loss(damped)
     angles = np.linspace(0, np.pi, 49)
     for _ in range(_MOST_HALVINGS):
         s = circle.radius * np.exp(1j * angles)
         half = circle.radius * (angles[1] - angles[0]) / 2
-        beta = eta * weight * ratio.inverse_norm(s, half, sigma)
+        beta = eta * weight * ratio.inverse_norm(s, half, sigma) / (1 - circle.turning)
         if np.max(beta) < 1:
             return float(np.max(beta))
         angles = np.linspace(0, np.pi, 2 * len(angles) - 1)

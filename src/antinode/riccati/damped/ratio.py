@@ -131,19 +131,25 @@ class Ratio:
         G = np.stack([z[row, :, i] for row, i in zip(rows, acting.freedom, strict=True)], axis=1)
         return np.asarray((G + np.swapaxes(G, -1, -2)) / 2)
 
-    def inverse_norm(self, s: Complex, distance: float, sigma: float) -> Array:
+    def inverse_norm(
+        self, s: Complex, distance: float, sigma: float, *, inertia: bool = False
+    ) -> Array:
         """Bound the inverse of A(s) within a distance of each place, in the energy of P.
 
-        ``|| P^(1/2) A^-1 P^(1/2) ||`` with ``P = K_base + sigma M``; infinite where there is none.
+        ``|| P^(1/2) A^-1 P^(1/2) ||`` with ``P = K_base + sigma M``, or, where `inertia` is asked
+        for, ``|| P^(1/2) A^-1 M^(1/2) ||``; infinite where there is none.
         """
         here, omega2 = self.samples(s), -s * s
         moved = distance * (2 * np.abs(s) + distance)
-        base = _largest_share(omega2, self.poles, sigma, moved)
+        share = _largest_root if inertia else _largest_share
+        base = share(omega2, self.poles, sigma, moved)
         r = here.matrix.shape[-1]
         if not r:
             return base
         energy = np.sqrt(self._energies(omega2, here.reach, sigma)) / here.size
-        energy = energy / (1 - np.minimum(moved / here.reach, 1))[:, None]
+        nearer = 1 - np.minimum(moved / here.reach, 1)[:, None]
+        energy = energy / nearer
+        other = np.ones(energy.shape) / nearer if inertia else energy
         with np.errstate(all="ignore"):
             tau = np.where(moved < here.reach, moved / (1 - moved / here.reach), np.inf)
             C, t = here.damping, distance
@@ -156,7 +162,7 @@ class Ratio:
             X = np.where((x < 1)[:, None, None], X, 0.0)
             inverse = np.linalg.inv(one - X) @ here.inverse
             acting = np.abs(here.acting) + (t * C + np.abs(here.acting) @ change) @ inverse
-            norm = np.linalg.norm(acting * energy[:, :, None] * energy[:, None, :], axis=(-2, -1))
+            norm = np.linalg.norm(acting * energy[:, :, None] * other[:, None, :], axis=(-2, -1))
         return np.where((x < 1) & np.isfinite(norm), base + norm, np.inf)
 
     def _energies(self, omega2: Complex, reach: Array, sigma: float) -> Array:
@@ -215,6 +221,23 @@ def _largest_share(omega2: Complex, poles: Array, sigma: float, moved: Array) ->
         share = np.where(gap > 0, np.maximum(places + sigma, 0.0) / gap, np.inf)
     far = 1 / (1 - np.minimum(moved / np.maximum(poles[-1], 1e-300), 1 - 1e-12))
     return np.asarray(np.maximum(np.max(share, axis=1), far))
+
+
+def _largest_root(omega2: Complex, poles: Array, sigma: float, moved: Array) -> Array:
+    """Return the largest ``sqrt(l_k + sigma)/(|l_k - l| - d)`` of all l_k, beyond the last too.
+
+    Over l it has one top, at ``sqrt((Re l + sigma)^2 + (Im l)^2) - sigma``.
+    """
+    known = np.abs(poles - omega2[:, None]) - moved[:, None]
+    last = float(poles[-1])
+    top = np.hypot(omega2.real + sigma, omega2.imag) - sigma
+    far = np.maximum(top, last)
+    nearest = np.abs(np.maximum(omega2.real, last) - omega2)
+    with np.errstate(all="ignore"):
+        share = np.where(known > 0, np.sqrt(np.maximum(poles + sigma, 0)) / known, np.inf)
+        beyond = np.sqrt(np.maximum(far + sigma, 0)) / np.abs(far - omega2)
+        beyond = np.where(nearest > moved, beyond / (1 - moved / nearest), np.inf)
+    return np.asarray(np.maximum(np.max(share, axis=1), beyond))
 
 
 def _moved(matrix: Array, change: Array, axis: int) -> Array:

@@ -96,6 +96,8 @@ class Circle:
         Eigenvalues s = 0.
     loss : float
         With loss factors what must be below 1 for them to leave the number as it is.
+    turning : float
+        The same of loads along the axis that turn with the section.
     """
 
     radius: float
@@ -105,6 +107,7 @@ class Circle:
     margin: float
     at_zero: int
     loss: float = 0.0
+    turning: float = 0.0
 
     @property
     def number(self) -> int:

@@ -32,7 +32,7 @@ def complex_states(damped: Damped, s: Complex) -> Complex:
     """
     fine, U, starts, steps, units = damped.passed(s)
     left = sweep(steps, end_frame(fine, 0, units).astype(complex))
-    back = sweep(_reversed(steps), end_frame(fine, -1, units).astype(complex))
+    back = sweep(_reversed(steps, damped.turns), end_frame(fine, -1, units).astype(complex))
     right = back._replace(F=back.F[::-1], R=back.R[::-1], back=back.back[::-1])
     both = np.concatenate([left.F, -right.F], axis=-1)
     _, gap, rows = np.linalg.svd(both)
@@ -46,10 +46,13 @@ def complex_states(damped: Damped, s: Complex) -> Complex:
     return np.asarray(states[kept_nodes(damped.chain, fine)])
 
 
-def _reversed(steps: Steps) -> Steps:
+def _reversed(steps: Steps, turning: bool) -> Steps:
     """Return the steps as passed from the right; those of points are 1 + a square root of zero."""
     turned = steps.reversed()
     U = turned.U.copy()
+    block = [i for i, kind in enumerate(turned.kind) if kind == "block"]
+    if turning:  # J^T-inverses are of the adjoint
+        U[block] = np.linalg.inv(steps.U[::-1][block])
     one = np.eye(U.shape[-1])
     for i, kind in enumerate(turned.kind):
         if kind in ("load", "joint"):

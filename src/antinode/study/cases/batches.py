@@ -28,9 +28,10 @@ Answer = tuple[Array, Array]
 
 
 def fits_a_batch(beam: Beam, family: FamilyName) -> bool:
-    """Tell whether a beam can be one of a batch in a family: nothing attached between its ends."""
+    """Tell whether a beam fits a batch in a family: nothing attached to it, nothing turns."""
     left, right, points = beam.points(family)
-    return not points and (left, right) == beam.ends.of(family)
+    turns = beam.loads_turn and FAMILIES[family].law.has_axial_force
+    return not turns and not points and (left, right) == beam.ends.of(family)
 
 
 def solve_batches(

@@ -1,0 +1,1 @@
+"""Loads along a beam, and what holds it against them."""
