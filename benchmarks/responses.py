@@ -83,7 +83,7 @@ def random(eta):
     damping = Damping(eta)
     model = Model(own, [Force(10.0)], outputs, damping, band[1])
     inputs = Inputs([Spectrum(np.array(band), np.ones(2))])
-    modes = bases(model.beam, model.drives, model.outputs, damping, band[1])
+    modes = bases(model)
     forty = basis(model.beam, "bending", 40, model.drives, model.outputs, damping)
 
     def summed(points):

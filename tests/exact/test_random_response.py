@@ -30,7 +30,7 @@ MIDDLE = (Force(0.5),)
 
 def integrated(beam, outputs, band, damping=UNDAMPED, tolerance=1e-8, forces=MIDDLE, **own):
     model = Model(beam, list(forces), outputs, damping, band[1])
-    modes = bases(model.beam, model.drives, model.outputs, damping, band[1])
+    modes = bases(model)
     spectra = [Spectrum(np.array(band), np.ones(2)) for _ in forces]
     return moments(model, Inputs(spectra, **own), modes, band, tolerance)
 
@@ -98,7 +98,7 @@ def test_kinks_of_the_input_are_met():
     rng = np.random.default_rng(18)
     jagged = Spectrum(f, np.exp(rng.normal(0, 1, 300)))
     model = Model(beam, [Force(0.5)], [Output(0.0, "displacement")], Damping(), 100.0)
-    modes = bases(model.beam, model.drives, model.outputs, Damping(), 100.0)
+    modes = bases(model)
     a, b = (moments(model, Inputs([jagged]), modes, (1, 100), t) for t in (1e-5, 1e-10))
     assert abs(a.square[0] - b.square[0]) <= a.error[0] + b.error[0]
     fine = np.geomspace(1, 100, 400001)

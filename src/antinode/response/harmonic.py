@@ -137,22 +137,19 @@ def output_keys(output: Output) -> dict[str, Any]:
     }
 
 
-def bases(
-    beam: Beam,
-    drives: tuple[Drive, ...],
-    outputs: tuple[Output, ...],
-    damping: Damping,
-    highest_hz: float,
-) -> tuple[Basis, ...]:
-    """Return all modes up to a frequency, as a basis, of each family that is driven.
+def bases(model: Model) -> tuple[Basis, ...]:
+    """Return all modes up to a model's highest frequency, as a basis, of each driven family.
 
     Where an end force follows, or something feeds back, they are those of a beam near by.
     """
-    beam = orthogonal(beam)
-    families = dict.fromkeys(drive.family for drive in drives)
+    beam, backend = orthogonal(model.beam), model.backend
+    number = {
+        family: modes_below(beam, family, _ABOVE * model.highest_hz, backend) + 1
+        for family in dict.fromkeys(drive.family for drive in model.drives)
+    }
     return tuple(
-        basis(beam, f, modes_below(beam, f, _ABOVE * highest_hz) + 1, drives, outputs, damping)
-        for f in families
+        basis(beam, family, count, model.drives, model.outputs, model.damping, backend)
+        for family, count in number.items()
     )
 
 
@@ -193,7 +190,7 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
     items, shown = items_of(problem, "amplitude"), len(file.outputs)
     drives, outputs = file.drives, (*file.outputs, *(item.output for item in items))
     model = Model(problem.beam, drives, outputs, damping, float(frequency[-1]), problem.backend)
-    modes = bases(model.beam, drives, outputs, damping, float(frequency[-1]))
+    modes = bases(model)
     if damping.modal:
         summed = modal_response(model, frequency, file.response.modes, file.response.tolerance)
         H, error, at = summed.values, summed.error, summed.at

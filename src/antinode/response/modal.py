@@ -25,7 +25,7 @@ from antinode.errors import InputError
 from antinode.modes.backends import BackendName, choose
 from antinode.modes.hertz import hertz
 from antinode.modes.result import ModalResult
-from antinode.modes.solve import solve_one
+from antinode.modes.solve import solve_modes
 from antinode.riccati.chain import Chain, largest_wave_number
 from antinode.riccati.points import Point
 from antinode.riccati.shapes import gauss_rule, integrate_squares, propagate
@@ -135,7 +135,9 @@ def _held_by(item: PointFeedback) -> tuple[Spring, Dashpot]:
     )
 
 
-def solved_modes(beam: Beam, family: FamilyName, modes: int) -> ModalResult:
+def solved_modes(
+    beam: Beam, family: FamilyName, modes: int, backend: BackendName = "auto"
+) -> ModalResult:
     """Return modes of unit modal mass.
 
     Raises
@@ -148,8 +150,14 @@ def solved_modes(beam: Beam, family: FamilyName, modes: int) -> ModalResult:
             f"{modes} modes lie in the range of frequencies; at most {MOST_MODES} are computed: "
             "lower its end"
         )
-    return solve_one(
-        beam, max(modes, 1), families=[family], normalisation="mass", tolerance=1e-8, damping="none"
+    return solve_modes(
+        beam,
+        max(modes, 1),
+        families=[family],
+        normalisation="mass",
+        tolerance=1e-8,
+        damping="none",
+        backend=backend,
     )
 
 
@@ -160,6 +168,7 @@ def basis(
     drives: tuple[Drive, ...],
     outputs: tuple[Output, ...],
     damping: Damping,
+    backend: BackendName = "auto",
 ) -> Basis:
     """Return the modes of one family as a basis; drives and outputs of other families are zero.
 
@@ -183,7 +192,7 @@ def basis(
             'right_follower 0, point feedback; of a vehicle end_force = "fixed_direction", '
             'hydrodynamic_stiffness = "none"'
         )
-    result = solved_modes(beam, family, modes)
+    result = solved_modes(beam, family, modes, backend)
     found = result.family(family)
     solution = result.solutions[family]
     chain, omega2, states = solution.chain, solution.omega2, solution.states

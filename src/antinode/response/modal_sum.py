@@ -67,8 +67,9 @@ def modal_response(
         If no number of modes meets the tolerance, and none is given.
     """
     parts, count, bounds = [], 0, np.zeros((len(model.outputs), len(model.drives)))
+    high = _MORE * model.highest_hz
     for family in model.families:
-        number = modes or max(_FEWEST, modes_below(model.beam, family, _MORE * model.highest_hz))
+        number = modes or max(_FEWEST, modes_below(model.beam, family, high, model.backend))
         while True:
             part = Summed(model, family, number)
             error = part.error(frequency_hz)
@@ -98,7 +99,9 @@ class Summed:
 
     def __init__(self, model: Model, family: FamilyName, modes: int) -> None:
         self.model, self.family = model, family
-        self.basis = basis(model.beam, family, modes, model.drives, model.outputs, model.damping)
+        self.basis = basis(
+            model.beam, family, modes, model.drives, model.outputs, model.damping, model.backend
+        )
         self.whole, self.whole_error = static_whole(model, family, self.shift)
         self.rest = self.whole - self._static(self.basis)
 

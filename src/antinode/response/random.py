@@ -396,7 +396,7 @@ def solve_random(problem: Problem) -> RandomResult:
     items = items_of(problem, "psd")
     drives, outputs = file.drives, (*file.outputs, *(item.output for item in items))
     model = Model(problem.beam, drives, outputs, damping, band[1], problem.backend)
-    modes = bases(model.beam, drives, outputs, damping, band[1])
+    modes = bases(model)
     tolerance = file.response.tolerance
     if damping.modal:
         summed = modal_response(model, frequency, file.response.modes, max(tolerance, 1e-6))

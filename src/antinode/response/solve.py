@@ -13,6 +13,7 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES
 from antinode.beam.loads.turning import refuse_turning
 from antinode.errors import ComputationError
+from antinode.modes.backends import BackendName, for_one
 from antinode.modes.solve import HasBeam, beam_of
 
 from .damping import Damping
@@ -35,6 +36,8 @@ Kind = Literal["harmonic", "random", "transient", "shock"]
 
 
 _FEW, _MORE = 3, 6  # modes that are asked whether they grow
+_PEAKS, _INTEGRALS = 300, 4000  # frequencies besides those of the file, about
+_SUMMED = 50  # modes that histories take, about
 
 
 def solve_response(problem: Problem | str | Path) -> Result:
@@ -60,7 +63,7 @@ def solve_response(problem: Problem | str | Path) -> Result:
     own = problem if isinstance(problem, Problem) else load_response(problem)
     if any(FAMILIES[drive.family].law.has_axial_force for drive in own.file.drives):
         refuse_turning(own.beam, "responses")
-    growing = unstable(own.beam, own.file.drives, own.damping)
+    growing = unstable(own.beam, own.file.drives, own.damping, own.backend)
     names = ", ".join(f"{m.name} grows at {m.growth_rate_per_s:.4g} /s" for m in growing[:3])
     if own.file.equipment and any(mode.number for mode in growing):  # not the attitude alone
         raise ComputationError(
@@ -152,13 +155,40 @@ def response_numbers(problem: Problem | str | Path, beam: Beam | None = None) ->
     return Numbers(headlines(result), result.warnings)
 
 
-def unstable(beam: Beam, drives: tuple[Drive, ...], damping: Damping) -> list[Mode]:
+def solve_one_response(problem: Problem) -> Result:
+    """Compute what `solve_response` does, for a command that solves one problem and ends.
+
+    A small one is solved by numpy, so that a fresh install answers before anything is compiled.
+    """
+    return solve_response(problem._replace(backend=for_one(*size_of(problem))))
+
+
+def size_of(problem: Problem) -> tuple[int, int]:
+    """Return how large a problem is: segments, and to how many modes its work comes about.
+
+    An interval in which something varies counts as the segments of its first three
+    representations, three driven frequencies as a mode.
+    """
+    file, beam = problem.file, problem.beam
+    families = dict.fromkeys(drive.family for drive in file.drives)
+    known = [family for family in families if family in beam.families]
+    stations = len(beam.x) - 1 + len(file.outputs_table) + len(file.equipment) + len(file.forces)
+    varying = max((int(np.sum(beam.varies(f))) for f in known), default=0)
+    asked = 0 if file.frequency is None else len(file.frequency.hertz())
+    frequencies = {"harmonic": asked + _PEAKS, "random": asked + _INTEGRALS}
+    modes = frequencies.get(file.response.kind, 3 * _SUMMED) // 3
+    return stations + 13 * varying, modes
+
+
+def unstable(
+    beam: Beam, drives: tuple[Drive, ...], damping: Damping, backend: BackendName = "auto"
+) -> list[Mode]:
     """Return the modes of the driven families that grow by themselves.
 
     Dampers to the ground and losses only calm a self-adjoint problem. Where ends follow or
     something feeds back they may make it grow (Ziegler, 1952), and complex modes are asked.
     """
-    from antinode.modes.solve import solve_one
+    from antinode.modes.solve import solve_modes
 
     feeds = any(isinstance(item, PointFeedback) for item in beam.attachments)
     if not np.any(beam.axial_force) and not beam.axial_acceleration and not feeds:
@@ -171,7 +201,9 @@ def unstable(beam: Beam, drives: tuple[Drive, ...], damping: Damping) -> list[Mo
     return [
         mode
         for family in dict.fromkeys(drive.family for drive in drives)
-        for mode in solve_one(own, number, families=[family], damping=way).family(family)
+        for mode in solve_modes(
+            own, number, families=[family], damping=way, backend=backend
+        ).family(family)
         if mode.kind in ("divergent", "flutter")
     ]
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from antinode.beam.file import load_beam
+from antinode.modes.backends import for_one
 from antinode.response.file import load_response
-from antinode.response.solve import response_numbers, solve_response
+from antinode.response.solve import response_numbers, size_of, solve_response
 
 BEAM = """
 [beam]
@@ -79,3 +80,12 @@ def test_another_beam_under_the_same_forces_with_the_same_equipment(tmp_path):
     assert numbers[0].value != response_numbers(problem).headlines[0].value
     assert numbers[1].unit == "dB"
     assert math.isnan(numbers[1].error)
+
+
+@pytest.mark.parametrize("kind", ["harmonic", "random", "transient", "shock"])
+def test_a_small_problem_is_for_numpy_and_a_large_one_for_compiled_code(tmp_path, kind):
+    problem = asked(tmp_path, kind)
+    assert for_one(*size_of(problem)) == "numpy"
+    many = np.linspace(0, 1, 1201)[1:-1]
+    large = problem._replace(beam=problem.beam.with_breakpoints(list(many)))
+    assert for_one(*size_of(large)) == "numba"

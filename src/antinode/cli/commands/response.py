@@ -62,7 +62,7 @@ def response(
         A response file in TOML. 'antinode init --example response' writes one with its beam.
     """
     from antinode.response.file import load_response
-    from antinode.response.solve import solve_response
+    from antinode.response.solve import solve_one_response
     from antinode.show.outcome import check_plot, draw, print_json, say_written
 
     check_plot(plot)
@@ -73,7 +73,7 @@ def response(
     problem = load_response(file, set_)
     if state_space:
         _write_state_space(problem, state_space)
-    result = solve_response(problem)
+    result = solve_one_response(problem)
     if output:
         write_response(output, result)
         say_written(output)
