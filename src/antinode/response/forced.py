@@ -27,6 +27,7 @@ from .damping import Damping
 from .quantities import Base, Drive, Output, family_of
 
 _MOST_SEGMENTS = 20_000
+_WISHED = 3
 NOISE = 1e-12
 """Of the largest response of a unit: what is left where the exact one is nothing."""
 
@@ -162,6 +163,7 @@ def refined(
     tolerance: float,
     units: Sequence[str],
     noise: float = NOISE,
+    needed: int | None = None,
 ) -> tuple[Numbers, Array]:
     """Return numbers of a beam, and how wrong they may be, from chains whose steps are halved.
 
@@ -177,12 +179,15 @@ def refined(
         Of the first axis: what is nothing but rounding beside others of its unit is let pass.
     noise : float
         How small that is, over the largest of a unit.
+    needed : int, optional
+        How many of the last axis must meet the tolerance; the others by `_WISHED` levels more, or
+        they keep the errors that they have.
 
     Returns
     -------
     numbers, error : array
-        The error is of the representation alone, absolute, the largest along the last axis;
-        0 where nothing varies.
+        The error is of the representation alone, absolute, number by number; 0 where nothing
+        varies.
 
     Raises
     ------
@@ -193,7 +198,7 @@ def refined(
     def on(levels: dict[FamilyName, int]) -> Array | Numbers:
         return compute(levels[family])
 
-    return refined_all(beam, {family: first}, on, tolerance, units, noise)
+    return refined_all(beam, {family: first}, on, tolerance, units, noise, needed)
 
 
 def refined_all(
@@ -203,6 +208,7 @@ def refined_all(
     tolerance: float,
     units: Sequence[str],
     noise: float = NOISE,
+    needed: int | None = None,
 ) -> tuple[Numbers, Array]:
     """Return numbers that several families make together, as `refined` does.
 
@@ -217,17 +223,21 @@ def refined_all(
     varying = [family for family in first if np.any(beam.varies(family))]
     if not varying:
         values = np.asarray(compute(refinement))
-        return values, np.zeros(values.shape[:-1])
+        return values, np.zeros(values.shape)
     levels: list[Numbers] = []
+    wished = 0
     while True:
         chains = [beam.chain(family, refinement[family]) for family in varying]
         levels.append(np.asarray(compute(refinement)))
         if len(levels) > 2:
             layer = max(layer_length(c, varying_segments(beam, c)) for c in chains)
             better, error = _judged(levels[-4:], layer)
-            size = np.max(np.abs(better), axis=-1)
-            if np.all(error <= tolerance * size + noise * largest_of_unit(size, units)):
-                return better, error
+            if _met(better[..., :needed], error[..., :needed], tolerance, units, noise):
+                long = max(len(chain.length) for chain in chains) > _MOST_SEGMENTS // 10
+                whole = needed is None or _met(better, error, tolerance, units, noise)
+                if whole or long or wished == _WISHED:
+                    return better, error
+                wished += 1
         longest = max(len(chain.length) for chain in chains)
         if 2 * longest > _MOST_SEGMENTS:
             raise ComputationError(
@@ -235,6 +245,15 @@ def refined_all(
                 "give a larger tolerance, a lower frequency, or more damping"
             )
         refinement = {f: r * (2 if f in varying else 1) for f, r in refinement.items()}
+
+
+def _met(
+    values: Numbers, error: Array, tolerance: float, units: Sequence[str], noise: float
+) -> bool:
+    """Tell whether errors are small beside the largest of the last axis."""
+    size = np.max(np.abs(values), axis=-1)
+    most = np.max(error, axis=-1)
+    return bool(np.all(most <= tolerance * size + noise * largest_of_unit(size, units)))
 
 
 def largest_of_unit(size: Array, units: Sequence[str]) -> Array:
@@ -247,16 +266,14 @@ def largest_of_unit(size: Array, units: Sequence[str]) -> Array:
 
 
 def _judged(levels: list[Numbers], layer: float) -> tuple[Numbers, Array]:
-    """Extrapolate by `riccati.convergence`, number by number; the largest error counts."""
+    """Extrapolate by `riccati.convergence`, number by number."""
     shape = levels[-1].shape
     rows = np.array([level.reshape(-1, shape[-1]) for level in levels])
     better = np.empty(rows.shape[1:], dtype=rows.dtype)
-    error = np.empty(len(better))
+    error = np.empty(better.shape)
     for k in range(len(better)):
-        errors = np.empty(shape[-1])
-        extrapolate(rows[:, k], len(rows) - 1, 1e-13, layer, better[k], errors)
-        error[k] = np.max(errors)
-    return better.reshape(shape), error.reshape(shape[:-1])
+        extrapolate(rows[:, k], len(rows) - 1, 1e-13, layer, better[k], error[k])
+    return better.reshape(shape), error.reshape(shape)
 
 
 def with_stations(beam: Beam, places: list[float]) -> Beam:

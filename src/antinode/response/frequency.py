@@ -148,9 +148,16 @@ class Model:
 
     def response(self, frequency_hz: Array, tolerance: float) -> tuple[Numbers, Array]:
         """Return outputs over drives (outputs, drives, k), and errors (outputs, drives)."""
-        omega = 2 * np.pi * frequency_hz
+        H, error, _ = self.response_with(frequency_hz, np.empty(0), tolerance)
+        return H, error
+
+    def response_with(
+        self, frequency_hz: Array, more_hz: Array, tolerance: float
+    ) -> tuple[Numbers, Array, Array]:
+        """Return the same, and errors (outputs, drives) at more frequencies, such as peaks."""
+        omega, needed = 2 * np.pi * np.concatenate([frequency_hz, more_hz]), len(frequency_hz)
         H = np.zeros((len(self.outputs), len(self.drives), len(omega)), dtype=complex)
-        error = np.zeros(H.shape[:2])
+        error, wrong = np.zeros(H.shape[:2]), np.zeros(H.shape[:2])
         for family in self.families:
             rows = self.rows(family)
 
@@ -158,12 +165,15 @@ class Model:
                 return self.forced(family, refinement).at(omega)
 
             units = [self.outputs[row].unit for row in rows]
-            H[rows], error[rows] = refined(
-                self.beam, family, compute, self.first(family), tolerance, units
+            H[rows], each = refined(
+                *(self.beam, family, compute, self.first(family), tolerance, units), needed=needed
             )
-            finest = max(r for name, r in self._chains if name == family)
-            error[rows] += rounding(self.forced(family, finest), omega, H[rows])
-        return H, error
+            finest = self.forced(family, max(r for name, r in self._chains if name == family))
+            for errors, part in ((error, slice(needed)), (wrong, slice(needed, None))):
+                if len(omega[part]):
+                    round_off = rounding(finest, omega[part], H[rows][:, :, part])
+                    errors[rows] = np.max(each[:, :, part], axis=-1) + round_off
+        return H[:, :, :needed], error, wrong
 
     def use(self, at: Callable[[Array], Numbers]) -> None:
         """Take outputs over drives from a function of frequencies [Hz] henceforth."""

@@ -39,6 +39,8 @@ class HarmonicResult(ResponseMethods, ByValue):
         Numbers amplitudes, time as exp(+i omega t), SI.
     error : array, shape (outputs,)
         Largest distance of any value from the beam's own, SI.
+    peak_error : array, shape (outputs,)
+        The same of the sizes of its peaks.
     shares : array, shape (outputs, drives, k)
         What each drive makes of it, complex.
     drives : tuple of Force or Base
@@ -60,6 +62,7 @@ class HarmonicResult(ResponseMethods, ByValue):
     outputs: tuple[Output, ...]
     values: Numbers = field(repr=False)
     error: Array
+    peak_error: Array
     shares: Numbers = field(repr=False)
     drives: tuple[Drive, ...]
     drive_names: tuple[str, ...]
@@ -87,6 +90,7 @@ class HarmonicResult(ResponseMethods, ByValue):
                     "real": plain(self.values[row].real),
                     "imag": plain(self.values[row].imag),
                     "error": plain(self.error[row]),
+                    "peak_error": plain(self.peak_error[row]),
                     "peaks": [peak.to_dict() for peak in self.peaks[row]],
                 }
             )
@@ -191,16 +195,18 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
     drives, outputs = file.drives, (*file.outputs, *(item.output for item in items))
     model = Model(problem.beam, drives, outputs, damping, float(frequency[-1]), problem.backend)
     modes = bases(model)
-    if damping.modal:
-        summed = modal_response(model, frequency, file.response.modes, file.response.tolerance)
-        H, error, at = summed.values, summed.error, summed.at
-    else:
-        H, error = model.response(frequency, file.response.tolerance)
-        at = model.quick
-    shares = H * amplitude[:, None]
     resonance = np.concatenate([own.frequency_hz for own in modes])
     ratio = np.concatenate([own.ratio for own in modes])
     grid = with_resonances(frequency, resonance, ratio) if len(frequency) > 1 else frequency
+    if damping.modal:
+        summed = modal_response(model, frequency, file.response.modes, file.response.tolerance)
+        H, error, at = summed.values, summed.error, summed.at
+        wrong = error
+    else:
+        beside = np.setdiff1d(grid, frequency)
+        H, error, wrong = model.response_with(frequency, beside, file.response.tolerance)
+        at = model.quick
+    shares = H * amplitude[:, None]
 
     def sizes(places: Array) -> Array:
         return np.asarray(np.abs(np.einsum("odk,d->ok", at(places), amplitude)))
@@ -221,6 +227,7 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
         outputs[:shown],
         shares.sum(axis=1)[:shown],
         (error @ np.abs(amplitude))[:shown],
+        (np.maximum(error, wrong) @ np.abs(amplitude))[:shown],
         shares[:shown],
         drives,
         file.drive_names,

@@ -145,8 +145,8 @@ def history_from(source: object, unit: str, folder: Path, where: str) -> History
     Parameters
     ----------
     source : str or dict
-        The name of a CSV file of time and value; or a table with `shape`, `height`, `duration`,
-        `start`; and, for a train of pulses, `period` and `count`.
+        The name of a CSV file of time and value; or a table with `time` and `value` as lists; or
+        with `shape`, `height`, `duration`, `start`; and, for a train of pulses, `period`, `count`.
     unit : str
         SI unit of the values.
     folder : Path
@@ -157,10 +157,13 @@ def history_from(source: object, unit: str, folder: Path, where: str) -> History
         path = folder / source
         columns = read_columns(path, ("time", "value"), ("s", unit))
         return History(*columns, name=str(path))
+    if isinstance(source, dict) and set(source) == {"time", "value"}:
+        return _listed(source, unit, where)
     if not isinstance(source, dict) or source.get("shape") not in FORMULAS:
         raise InputError(
-            f"{where} must be the name of a CSV file, or {{ shape = '...', height = ..., "
-            f"duration = ... }} with a shape of {', '.join(FORMULAS)}"
+            f"{where} must be the name of a CSV file, {{ time = [...], value = [...] }}, or "
+            "{ shape = '...', height = ..., duration = ... } with a shape of "
+            f"{', '.join(FORMULAS)}"
         )
     for key in source:
         if key not in _KEYS:
@@ -187,3 +190,14 @@ def history_from(source: object, unit: str, folder: Path, where: str) -> History
     later = np.arange(count)[:, None] * period
     t = (pulse.time_s + later).ravel()
     return History(t, np.tile(pulse.value, count), pulse.chord, where)
+
+
+def _listed(source: dict[str, object], unit: str, where: str) -> History:
+    """Return a history from lists of times and values."""
+    columns = []
+    for key, of in (("time", "s"), ("value", unit)):
+        given = source[key]
+        if not isinstance(given, list):
+            raise InputError(f"{where}: time and value are lists of as many numbers")
+        columns.append(np.array([in_si(one, of, f"{where}.{key}") for one in given]))
+    return History(columns[0], columns[1], name=where)

@@ -212,5 +212,5 @@ def static_whole(model: Model, family: FamilyName, shift: float) -> tuple[Array,
     values, wrong = refined(
         model.beam, family, compute, model.first(family), 1e-9, [o.unit for o in outputs]
     )
-    whole[rows], error[rows] = np.real(values[:, :, 0]), wrong
+    whole[rows], error[rows] = np.real(values[:, :, 0]), wrong[:, :, 0]
     return whole, error + 1e-12 * np.abs(whole)

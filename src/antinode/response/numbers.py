@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,6 +31,36 @@ class Headline(NamedTuple):
     unit: str
 
 
+class Asked(NamedTuple):
+    """What one such number is, before anything is solved."""
+
+    key: str
+    label: str
+    unit: str
+
+    @property
+    def name(self) -> str:
+        """As a variable of a study: ``outputs_0_rms``."""
+        return self.key.replace(".", "_")
+
+
+NAMES = {"harmonic": "largest", "random": "rms", "transient": "peak", "shock": "srs"}
+
+
+def asked_of(kind: str, outputs: Sequence[Any], equipment: Sequence[Any]) -> tuple[Asked, ...]:
+    """Return what a response comes to, by its kind, its outputs, and its equipment."""
+    name = NAMES[kind]
+    rows = [
+        Asked(f"outputs.{row}.{name}", f"{name} {output.name}", output.unit)
+        for row, output in enumerate(outputs)
+    ]
+    rows += [
+        Asked(f"equipment.{row}.margin", f"margin of {item.name}", "dB")
+        for row, item in enumerate(equipment)
+    ]
+    return tuple(rows)
+
+
 def headlines(result: Any) -> tuple[Headline, ...]:
     """Return what a response comes to, for tables and studies.
 
@@ -40,20 +71,18 @@ def headlines(result: Any) -> tuple[Headline, ...]:
     Returns
     -------
     tuple of Headline
-        Of each output the largest amplitude among the frequencies of the file, the rms, the largest
-        of the history or of the shock spectrum, SI; of each piece of equipment the margin [dB],
-        whose error is not known.
+        Of each output the largest amplitude in the band, peaks between the frequencies of the file
+        included; the rms; the largest of the history, or of the shock spectrum at the frequencies
+        of the file, SI. Of each piece of equipment the margin [dB], whose error is not known.
     """
-    names = {"harmonic": "largest", "random": "rms", "transient": "peak", "shock": "srs"}
-    name, rows = names[result.kind], []
-    for row, output in enumerate(result.outputs):
-        value, error = _number(result, row)
-        label = f"{name} {output.name}"
-        rows.append(Headline(f"outputs.{row}.{name}", label, value, error, output.unit))
-    for row, verdict in enumerate(getattr(result, "verdicts", ())):
-        label = f"margin of {verdict.name}"
-        rows.append(Headline(f"equipment.{row}.margin", label, verdict.margin_db, math.nan, "dB"))
-    return tuple(rows)
+    verdicts = getattr(result, "verdicts", ())
+    numbers = [_number(result, row) for row in range(len(result.outputs))]
+    numbers += [(verdict.margin_db, math.nan) for verdict in verdicts]
+    asked = asked_of(result.kind, result.outputs, verdicts)
+    return tuple(
+        Headline(one.key, one.label, *number, one.unit)
+        for one, number in zip(asked, numbers, strict=True)
+    )
 
 
 def _number(result: Any, row: int) -> tuple[float, float]:
@@ -62,5 +91,8 @@ def _number(result: Any, row: int) -> tuple[float, float]:
         return result.statistics[row].rms, result.statistics[row].error
     if result.kind == "transient":
         return abs(result.largest[row][1]), float(result.peak_error[row])
-    values = result.values if result.kind == "harmonic" else result.srs
-    return float(np.max(np.abs(values[row]))), float(result.error[row])
+    if result.kind == "shock":
+        return float(np.max(result.srs[row])), float(result.error[row])
+    at_most = max((peak.size for peak in result.peaks[row]), default=0.0)
+    largest = max(at_most, float(np.max(np.abs(result.values[row]))))
+    return largest, float(max(result.error[row], result.peak_error[row]))

@@ -272,7 +272,7 @@ def moments(
     return Moments(
         square,
         better[:, 1, 0] * top,
-        error[:, 0] + last["wrong"] + 1e-10 * square,
+        error[:, 0, 0] + last["wrong"] + 1e-10 * square,
         parts[:, 0],
         np.sum(parts[:, 2:], axis=-1),
         bounds,

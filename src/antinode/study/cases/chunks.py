@@ -36,6 +36,11 @@ def mode_names(study: Study) -> list[str]:
     return [f"{f} {k}" for f in study.solve.families for k in range(1, study.solve.modes + 1)]
 
 
+def number_names(study: Study) -> list[str]:
+    """Return the names of what the response of each case comes to, each with its error."""
+    return [name for one in study.asked for name in (one.name, f"{one.name}_error")]
+
+
 def compute_chunk(points: Points, chunk: int) -> Arrays:
     """Compute a chunk: arrays over its cases, by the names of the variables of the result."""
     return solve_values(points, points.values(chunk))
@@ -55,7 +60,13 @@ def solve_values(points: Points, values: Array) -> Arrays:
         from .margins import margins
 
         every |= margins(cases, reason)
-    out |= {name: every[name] for name in study.outputs}
+    if study.response is not None:
+        from .responses import responses
+
+        numbers, told = responses(cases, reason)
+        every |= numbers
+        out["warned"] |= told.astype(type_of_bits(study))
+    out |= {name: every[name] for name in (*study.outputs, *number_names(study))}
     if points.tracked:
         out["shape"] = shapes
     return out

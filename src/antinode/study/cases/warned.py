@@ -43,15 +43,50 @@ _LAST = 62
 """The highest bit; sentences beyond it share it (of a vehicle with some fifty sets of fins)."""
 
 
+RESPONSE_MESSAGES = (
+    ("the body is not stable", "the body is not stable under its axial force, dampers and "
+     "feedback: the response is the forced part alone, which never comes by itself"),
+    ("the force of an end turns", "the force of an end turns with it: the response is exact, but "
+     "peaks are looked for by the modes of a force of fixed direction; a narrow one may be missed"),
+    ("no damping", "no damping: at a resonance the response grows without bound, and only how near "
+     "a frequency comes to it limits it"),
+    ("modes left out", "modes left out still change some histories by more than 0.5 %: see the "
+     "errors of the response"),
+    ("", "the response warns of something: 'antinode response' of that case alone tells it"),
+    (None, "the response could not be computed, or has no verdict since the body is not stable"),
+)  # fmt: skip
+"""How warnings of responses begin, and what is said of all cases that have one."""
+
+
 def messages(study: Study) -> tuple[str, ...]:
     """Return what a case of a study can warn of, in the order of the bits."""
+    texts = case_messages(study)
+    if study.response is not None:
+        texts = (*texts, *(text for _, text in RESPONSE_MESSAGES))
+    return (*texts[:_LAST], "; or ".join(texts[_LAST:])) if len(texts) > _LAST else texts
+
+
+def response_bits(study: Study, warnings: Iterable[str | None]) -> int:
+    """Return the bits of what the response of a case warns of; None where it was not computed."""
+    bits, first = 0, len(case_messages(study))
+    for told in warnings:
+        row = next(
+            k
+            for k, (start, _) in enumerate(RESPONSE_MESSAGES)
+            if told is start or (told is not None and start is not None and told.startswith(start))
+        )
+        bits |= 1 << min(first + row, _LAST)
+    return bits
+
+
+def case_messages(study: Study) -> tuple[str, ...]:
+    """Return what a case can warn of without its response."""
     if isinstance(study.case, BeamFile):
         return beam_messages(study.case)
     of_modes = list(_OF_MODES)
     if any(study.vehicle_case.model.follow):
         of_modes[of_modes.index(ROTATION_DIVERGES)] = ROTATION_NOT_TURNED_BACK
-    texts = (*of_modes, *OF_MANY, *load_messages(study.vehicle_case))
-    return (*texts[:_LAST], "; or ".join(texts[_LAST:])) if len(texts) > _LAST else texts
+    return (*of_modes, *OF_MANY, *load_messages(study.vehicle_case))
 
 
 def type_of_bits(study: Study) -> str:

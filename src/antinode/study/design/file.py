@@ -21,9 +21,12 @@ from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_beside_case, read_cells, read_toml
 from antinode.inputs.units import Frozen, Length, Number, Unit
 from antinode.methods import StudyMethods
+from antinode.response.file import ResponseFile
+from antinode.response.numbers import Asked, asked_of
 from antinode.text import short
 from antinode.vehicle.case import Case, check_real, load_case
 
+from .response import read_response
 from .subject import OfBeam, OfVehicle, subject_of
 
 Quantity = float | str
@@ -278,6 +281,12 @@ class StudyFile(_Choices):
     case: str = Field(
         min_length=1, description="name of the case file, or of a beam file, beside this one"
     )
+    response: str | None = Field(
+        default=None,
+        min_length=1,
+        description="name of a response file of the same case or beam: what each case then feels "
+        "and carries is kept too",
+    )
 
 
 class Study(StudyMethods, _Choices):
@@ -286,11 +295,20 @@ class Study(StudyMethods, _Choices):
     case: Annotated[Case, AfterValidator(check_real)] | BeamFile = Field(
         description="what the inputs are changed in"
     )
+    response: ResponseFile | None = Field(
+        default=None, description="what each case is asked to bear, with its spectra and histories"
+    )
+
+    @property
+    def asked(self) -> tuple[Asked, ...]:
+        """What the response of each case comes to."""
+        own = self.response
+        return () if own is None else asked_of(own.response.kind, own.outputs, own.equipment)
 
     @cached_property
     def subject(self) -> OfVehicle | OfBeam:
         """The case or the beam, as what varies asks for it."""
-        return subject_of(self.case)
+        return subject_of(self.case, self.response is not None)
 
     @property
     def vehicle_case(self) -> Case:
@@ -341,7 +359,10 @@ def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
             say = "leave out [[inputs]], and write kind = 'zip'"
             raise InputError(f"{where}: design.table stands for all inputs; {say}")
         kept["inputs"] = _read_table(path.parent / file.design.table)
-    return Study(case=load_subject(path.parent / file.case), **kept)
+    case = load_subject(path.parent / file.case)
+    if file.response is not None:
+        kept["response"] = read_response(path.parent / file.response, path.parent / file.case)
+    return Study(case=case, **kept)
 
 
 def load_subject(path: Path, assignments: Iterable[str] = ()) -> Case | BeamFile:

@@ -155,7 +155,7 @@ def points_of(study: Study) -> Points:
     if not study.inputs:
         raise InputError("inputs is empty; give at least one [[inputs]], or design.table")
     variables = tuple(v for given in study.inputs for v in variables_of(study.subject, given))
-    _check_names(variables)
+    _check_names(variables, {one.name for one in study.asked})
     _check_families(study)
     kind = study.design.kind
     if kind in _SAMPLED:
@@ -258,7 +258,7 @@ def _check_families(study: Study) -> None:
         raise InputError(f"outputs: {none[0]} is of beams with dashpots; leave it out")
 
 
-def _check_names(variables: tuple[Variable, ...]) -> None:
+def _check_names(variables: tuple[Variable, ...], asked: set[str]) -> None:
     seen: dict[str, str] = {}
     for v in variables:
         if not _NAME.fullmatch(v.name):
@@ -266,7 +266,7 @@ def _check_names(variables: tuple[Variable, ...]) -> None:
                 f"inputs: the name {short(v.name)} cannot stand in a store; take letters, digits, "
                 "spaces and . _ - + : ( ), a letter first"
             )
-        if v.name in RESERVED:
+        if v.name in RESERVED or v.name.removesuffix("_error") in asked:
             raise InputError(
                 f"inputs: the name {short(v.name)} is taken by the result; give another name"
             )

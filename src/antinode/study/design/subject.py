@@ -215,9 +215,12 @@ class OfBeam(Subject):
     Attributes
     ----------
     file : BeamFile
+    responds : bool
+        Whether its response is asked for too.
     """
 
     file: BeamFile
+    responds: bool = False
     stations = ("stations",)
 
     @property
@@ -295,8 +298,8 @@ class OfBeam(Subject):
 
     def without_effect(self, keys: Keys) -> str:
         """Say why a number changes nothing; nothing if it may change something."""
-        if keys[0] == "stations" and keys[1] == "loss_factor":
-            return "frequencies are those without losses; see antinode response"
+        if keys[0] == "stations" and keys[1] == "loss_factor" and not self.responds:
+            return "frequencies are those without losses; name a response file: response = '...'"
         end = {"left_follower": "left", "right_follower": "right"}.get(str(keys[-1]))
         if end and getattr(self.tree.ends, end) != "free":
             return f"a force turns with a free end only, and {end} is held"
@@ -330,6 +333,6 @@ class OfBeam(Subject):
         return self.file.model_copy(update={"table": table})
 
 
-def subject_of(case: Case | BeamFile) -> OfVehicle | OfBeam:
+def subject_of(case: Case | BeamFile, responds: bool = False) -> OfVehicle | OfBeam:
     """Return what a study of a case, or of a beam file, varies something in."""
-    return OfBeam(case) if isinstance(case, BeamFile) else OfVehicle(case)
+    return OfBeam(case, responds) if isinstance(case, BeamFile) else OfVehicle(case)

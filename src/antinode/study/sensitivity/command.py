@@ -21,7 +21,7 @@ from antinode.study.progress import cases_progress, end_progress
 from antinode.study.sweep.report import by_shear, warning_texts
 from antinode.text import counted, short
 
-from .sensitivity import SensitivityResult, sensitivity
+from .sensitivity import ModeSensitivity, NumberSensitivity, SensitivityResult, sensitivity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -109,6 +109,9 @@ def show_sensitivity(out: Console, result: SensitivityResult) -> None:
     )
     out.print(fitting((_bands(result, kept) for kept in _BANDS_KEPT), out))
     out.print(fitting((_indices(result, kept) for kept in _INDICES_KEPT), out))
+    if result.responses:
+        out.print(fitting((_number_bands(result, kept) for kept in _NUMBER_BANDS_KEPT), out))
+        out.print(fitting((_number_indices(result, kept) for kept in _INDICES_KEPT), out))
     show_warnings(out, warning_texts(result.warnings, result.cases))
 
 
@@ -128,16 +131,47 @@ def _bands(result: SensitivityResult, kept: Sequence[int]) -> Table:
     return table
 
 
+_NUMBER_BANDS = ("response", "nominal", "mean", "sd", "95 % from", "to", "unit", "+-")
+_NUMBER_BANDS_KEPT = (range(8), (0, 2, 3, 4, 5, 6, 7), (0, 2, 3, 6))
+
+
+def _number_bands(result: SensitivityResult, kept: Sequence[int]) -> Table:
+    left = tuple(k for k, column in enumerate(kept) if column in (0, 6))
+    table = new_table(*(_NUMBER_BANDS[k] for k in kept), left=left)
+    for r in result.responses:
+        numbers = (f"{v:.5g}" for v in (r.nominal, r.mean, r.sd, *r.band))
+        error = f"{r.error:.1e}" if np.isfinite(r.error) else ""
+        cells = (r.label, *numbers, r.unit, error)
+        table.add_row(*(Text(cells[k]) for k in kept))
+    return table
+
+
 def _indices(result: SensitivityResult, kept: Sequence[int]) -> Table:
+    return _indices_of("mode", "% per %", [(m.name, m) for m in result.modes], result, kept)
+
+
+def _number_indices(result: SensitivityResult, kept: Sequence[int]) -> Table:
+    rows = [(r.label, r) for r in result.responses]
+    return _indices_of("response", "% (dB) per %", rows, result, kept)
+
+
+def _indices_of(
+    first: str,
+    last: str,
+    rows: Sequence[tuple[str, ModeSensitivity | NumberSensitivity]],
+    result: SensitivityResult,
+    kept: Sequence[int],
+) -> Table:
     left = tuple(k for k, column in enumerate(kept) if column < 2)
-    table = new_table(*(_INDICES[k] for k in kept), left=left)
-    for m in result.modes:
+    heads = (first, *_INDICES[1:-1], last)
+    table = new_table(*(heads[k] for k in kept), left=left)
+    for name, m in rows:
         order = np.argsort(-np.nan_to_num(m.indices.total))[:_SHOWN]
         for number, k in enumerate(order.tolist()):
             halves = [np.ptp(b[k]) / 2 for b in (m.indices.total_band, m.indices.first_band)]
             indices = (m.indices.total[k], halves[0], m.indices.first[k], halves[1])
             cells: tuple[str | Text, ...] = (
-                m.name if number == 0 else "",
+                Text(name if number == 0 else ""),
                 Text(result.inputs[k]),
                 *(f"{v:.3f}" for v in indices),
                 f"{m.elasticity[k]:+.4f}" if np.isfinite(m.elasticity[k]) else "",

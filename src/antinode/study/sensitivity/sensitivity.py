@@ -35,7 +35,7 @@ from antinode.vehicle.derivatives import EigenvalueDerivatives
 from antinode.vehicle.effects import by_logarithm, effect_of_number, effect_of_radius
 from antinode.vehicle.numbers import value_at
 
-from .beam_slopes import beam_slopes
+from .beam_slopes import beam_slopes, response_slopes
 from .indices import Indices, sobol_indices
 
 if TYPE_CHECKING:
@@ -82,6 +82,43 @@ class ModeSensitivity:
     without: int
 
 
+@dataclass(frozen=True)
+class NumberSensitivity:
+    """What a number of the response depends on.
+
+    Attributes
+    ----------
+    name, label, unit : str
+    nominal, mean, sd : float
+        At the case itself; over the distributions.
+    band : tuple of float
+        2.5 and 97.5 % quantiles.
+    error : float
+        The largest error among the cases; NaN where none is known.
+    indices : Indices
+        By input.
+    slope, elasticity : array
+        Derivative at the case by each input, per SI unit; the same in % per % (of a margin in dB:
+        dB per %).
+    used, without : int
+        Samples that the indices are made of; cases without this number.
+    """
+
+    name: str
+    label: str
+    unit: str
+    nominal: float
+    mean: float
+    sd: float
+    band: tuple[float, float]
+    error: float
+    indices: Indices
+    slope: Array
+    elasticity: Array
+    used: int
+    without: int
+
+
 @dataclass(frozen=True, repr=False)
 class SensitivityResult(SensitivityMethods):
     """Sensitivities of all frequencies.
@@ -91,6 +128,8 @@ class SensitivityResult(SensitivityMethods):
     name : str
     inputs, units : tuple of str
     modes : tuple of ModeSensitivity
+    responses : tuple of NumberSensitivity
+        Of what the response comes to, if the study has one.
     samples, cases, failed : int
         Samples of each arrangement; all cases; those of them that failed.
     left_out, warnings : tuple of dict
@@ -107,6 +146,7 @@ class SensitivityResult(SensitivityMethods):
     failed: int
     left_out: tuple[dict[str, Any], ...]
     warnings: tuple[dict[str, Any], ...]
+    responses: tuple[NumberSensitivity, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain values for JSON."""
@@ -120,6 +160,7 @@ class SensitivityResult(SensitivityMethods):
                 {"name": n, "unit": u} for n, u in zip(self.inputs, self.units, strict=True)
             ],
             "modes": [self._mode(m) for m in self.modes],
+            "responses": [self._response(r) for r in self.responses],
             "warnings": list(self.warnings),
         }
 
@@ -136,15 +177,34 @@ class SensitivityResult(SensitivityMethods):
             "cases_without_frequency": m.without,
             "inputs": [
                 {
-                    "name": name,
-                    "first": m.indices.first[k],
-                    "first_band": m.indices.first_band[k],
-                    "total": m.indices.total[k],
-                    "total_band": m.indices.total_band[k],
+                    **self._shares(m.indices, k),
                     "slope_hz_per_unit": m.slope[k],
                     "percent_per_percent": m.elasticity[k],
                 }
-                for k, name in enumerate(self.inputs)
+                for k in range(len(self.inputs))
+            ],
+        }
+
+    def _shares(self, indices: Indices, k: int) -> dict[str, Any]:
+        return {
+            "name": self.inputs[k],
+            "first": indices.first[k],
+            "first_band": indices.first_band[k],
+            "total": indices.total[k],
+            "total_band": indices.total_band[k],
+        }
+
+    def _response(self, r: NumberSensitivity) -> dict[str, Any]:
+        per = "unit_per_percent" if r.unit == "dB" else "percent_per_percent"
+        return {
+            **{name: getattr(r, name) for name in ("name", "label", "unit")},
+            **{name: null(getattr(r, name)) for name in ("nominal", "mean", "sd", "error")},
+            "band": list(r.band),
+            "samples_used": r.used,
+            "cases_without": r.without,
+            "inputs": [
+                {**self._shares(r.indices, k), "slope": r.slope[k], per: r.elasticity[k]}
+                for k in range(len(self.inputs))
             ],
         }
 
@@ -222,7 +282,49 @@ def _result(study: Study, points: Points, data: xarray.Dataset, number: int) -> 
         failed=data.attrs["failed"],
         left_out=left_out,
         warnings=(*left_out, *data.attrs["warnings"]),
+        responses=_responses(points, data, number),
     )
+
+
+def _responses(points: Points, data: xarray.Dataset, number: int) -> tuple[NumberSensitivity, ...]:
+    """Evaluate what the responses come to."""
+    if not points.study.asked:
+        return ()
+    slopes, start = response_slopes(points), _starts(points)
+    rows = []
+    for one in points.study.asked:
+        values, error = (np.asarray(data[name]) for name in (one.name, f"{one.name}_error"))
+        known, both = np.isfinite(values), values[: 2 * number]
+        if not np.any(known[: 2 * number]):
+            continue
+        both = both[np.isfinite(both)]
+        nominal, slope = slopes[one.name]
+        low, high = np.quantile(both, [0.025, 0.975])
+        with np.errstate(all="ignore"):
+            share = slope * start / (100.0 if one.unit == "dB" else nominal)
+        rows.append(
+            NumberSensitivity(
+                one.name,
+                one.label,
+                one.unit,
+                nominal=nominal,
+                mean=float(both.mean()),
+                sd=float(both.std(ddof=1)) if len(both) > 1 else math.nan,
+                band=(float(low), float(high)),
+                error=_farthest(error),
+                indices=sobol_indices(values, len(points.variables)),
+                slope=slope,
+                elasticity=share,
+                used=int(np.count_nonzero(known.reshape(-1, number).all(axis=0))),
+                without=int(np.count_nonzero(~known)),
+            )
+        )
+    return tuple(rows)
+
+
+def _starts(points: Points) -> Array:
+    """Return the inputs at the case itself."""
+    return np.array([np.nan if v.start is None else v.start for v in points.variables])
 
 
 def _check_known(hz: Array) -> None:
@@ -266,7 +368,7 @@ def _mode(
     both = hz[: 2 * number]
     both = both[np.isfinite(both)]
     nominal, slope = slopes[name]
-    start = np.array([np.nan if v.start is None else v.start for v in points.variables])
+    start = _starts(points)
     low, high = np.quantile(both, [0.025, 0.975])
     return ModeSensitivity(
         name=name,

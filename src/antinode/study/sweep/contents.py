@@ -77,6 +77,11 @@ def outputs_of(points: Points) -> dict[str, Output]:
         attrs = {"units": unit, "long_name": text}
         dims, shape = (("case", "mode"), (n, modes)) if each else (("case",), (n,))
         found[name] = Output(dims, shape, "float64", attrs)
+    for one in study.asked:
+        about = {"units": one.unit, "long_name": one.label}
+        wrong = {"units": one.unit, "long_name": f"error of {one.label}"}
+        found[one.name] = Output(("case",), (n,), "float64", about)
+        found[f"{one.name}_error"] = Output(("case",), (n,), "float64", wrong)
     if points.tracked:
         found |= _tracked_variables(study, n, modes)
     return found

@@ -52,6 +52,7 @@ def summary(points: Points, dataset: xarray.Dataset) -> dict[str, Any]:
             for v in points.variables
         ],
         "modes": modes,
+        "responses": _response_ranges(points, dataset),
         "warnings": list(dataset.attrs["warnings"]),
     }
 
@@ -106,6 +107,29 @@ def _ranges(dataset: xarray.Dataset) -> list[dict[str, Any]]:
         }
         for k, name in enumerate(names)
     ]
+
+
+def _response_ranges(points: Points, dataset: xarray.Dataset) -> list[dict[str, Any]]:
+    """Return what is known of every number of the responses: its range, and how wrong it may be."""
+    found = []
+    for one in points.study.asked:
+        values, error = (
+            np.concatenate([part for _, part in _blocks(dataset[name])])
+            for name in (one.name, f"{one.name}_error")
+        )
+        known = values[np.isfinite(values)]
+        ends = (known.min(), known.mean(), known.max()) if len(known) else (np.nan,) * 3
+        found.append(
+            {
+                "name": one.name,
+                "label": one.label,
+                "unit": one.unit,
+                "cases": len(known),
+                **{k: _null(v) for k, v in zip(("least", "mean", "largest"), ends, strict=True)},
+                "largest_error": _null(np.max(error[np.isfinite(error)], initial=-np.inf)),
+            }
+        )
+    return found
 
 
 class _Extent(NamedTuple):
@@ -169,6 +193,8 @@ def show_sweep(out: Console, data: dict[str, Any], stored: str) -> None:
     out.print(_inputs_table(data))
     if data["modes"]:
         out.print(fitting((_modes_table(data, kept) for kept in _KEPT), out))
+    if data["responses"]:
+        out.print(fitting((_responses_table(data, kept) for kept in _NUMBERS_KEPT), out))
     if data["past_buckling"]:
         number = counted(data["past_buckling"], "case")
         out.print(f"{number} past buckling: the first mode has no frequency there", highlight=False)
@@ -202,6 +228,23 @@ def _modes_table(data: dict[str, Any], kept: Sequence[int]) -> Table:
         shown += ["" if error is None else f"{error:.1e}", shear]
         cells = (m["name"], str(m["cases"]), *shown)
         table.add_row(*(cells[k] for k in kept))
+    return table
+
+
+_NUMBERS = ("response", "cases", "least", "mean", "largest", "unit", "+-")
+_NUMBERS_KEPT = (range(7), (0, 2, 4, 5, 6), (0, 2, 4, 5))
+
+
+def _responses_table(data: dict[str, Any], kept: Sequence[int]) -> Table:
+    left = tuple(k for k, column in enumerate(kept) if column in (0, 5))
+    table = new_table(*(_NUMBERS[k] for k in kept), left=left)
+    for one in data["responses"]:
+        least, mean, largest = (
+            "" if one[key] is None else f"{one[key]:.5g}" for key in ("least", "mean", "largest")
+        )
+        error = "" if one["largest_error"] is None else f"{one['largest_error']:.1e}"
+        cells = (one["label"], str(one["cases"]), least, mean, largest, one["unit"], error)
+        table.add_row(*(Text(cells[k]) for k in kept))
     return table
 
 
