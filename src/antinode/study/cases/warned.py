@@ -50,6 +50,8 @@ RESPONSE_MESSAGES = (
      "peaks are looked for by the modes of a force of fixed direction; a narrow one may be missed"),
     ("no damping", "no damping: at a resonance the response grows without bound, and only how near "
      "a frequency comes to it limits it"),
+    ("a feedback acts", "a feedback acts, as the water's stiffness does: the response is exact, "
+     "but peaks are looked for by the modes of a beam without it; a narrow one may be missed"),
     ("modes left out", "modes left out still change some histories by more than 0.5 %: see the "
      "errors of the response"),
     ("", "the response warns of something: 'antinode response' of that case alone tells it"),
