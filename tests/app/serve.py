@@ -7,7 +7,7 @@ from pathlib import Path
 
 from antinode.app.server import run_app
 
-LONGEST = 300.0
+LONGEST = 900.0
 
 
 def main():

@@ -90,7 +90,7 @@ def test_cavitation_number_gives_way_to_depth():
 def test_a_beam_has_no_vehicle():
     async def act(user, page):
         await user.should_not_see("Vehicle in its cavity, to scale, with the forces on it")
-        one(user, "end-right").value = "pinned"
+        one(user, "switch-right").value = "pinned"
         await result(page, lambda s: s.answer.beam.ends.right == "pinned")
 
     visit(act, "tower")

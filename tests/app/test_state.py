@@ -13,10 +13,10 @@ pytest.importorskip("nicegui", reason="nicegui is not installed (extra web)")
 
 from antinode import load_case, solve_modes
 from antinode.app.compute import full_answer, quick_answer
+from antinode.app.controls.equipment import equipment
+from antinode.app.controls.fields import swapped_cavitation
 from antinode.app.curve import curve_key, grow_curve
 from antinode.app.display import SYSTEMS, number_text, shown_unit
-from antinode.app.equipment import equipment
-from antinode.app.fields import swapped_cavitation
 from antinode.app.inputs import find_input, numbers, sliders
 from antinode.app.panels.frequencies import baseline_of, frequencies_data
 from antinode.app.panels.numbers import short_list

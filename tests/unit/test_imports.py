@@ -42,7 +42,10 @@ ROOMS = {
     "exchange": ("ground", "riccati", "inputs", "beam", "modes", "response", "show"),
     "paper": ("ground", "riccati", "inputs", "beam", "modes", "vehicle", "show"),
     "report": ("ground", "riccati", "inputs", "beam", "modes", "vehicle", "show", "study"),
-    "app": ("ground", "riccati", "inputs", "beam", "modes", "vehicle", "show", "examples"),
+    "app": (
+        *("ground", "riccati", "inputs", "beam", "modes", "vehicle", "stability"),
+        *("show", "examples"),
+    ),
     "cli": ("ground", "riccati", "inputs", "beam", "modes", "vehicle", "show", "examples"),
 }
 """What a room may import when it is imported: itself, and these. A new room gets a line here."""

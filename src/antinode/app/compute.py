@@ -15,8 +15,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.attachments import is_damped
 from antinode.beam.beam import Beam
-from antinode.modes.result import ModalResult
+from antinode.modes.result import ModalResult, not_modelled
 from antinode.modes.solve import solve_modes
 from antinode.riccati.chain import evaluate
 from antinode.vehicle.case import Case
@@ -68,7 +69,17 @@ class Answer:
     def warnings(self) -> list[str]:
         """Warnings as on the command line."""
         loads = list(self.case.loads.warnings) if self.case else []
-        return [*loads, *(self.full.warnings if self.full else ())]
+        return [*loads, *self.problem.notes, *(self.full.warnings if self.full else ())]
+
+    @property
+    def is_damped(self) -> bool:
+        """Whether bending modes are complex: of dashpots or feedback."""
+        return is_damped(self.beam.attachments, QUICK_FAMILY)
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """What the model leaves out."""
+        return not_modelled(self.beam, self.is_damped)
 
 
 def wanted_modes(problem: Problem) -> int:
@@ -86,13 +97,12 @@ def quick_answer(state: State) -> Answer:
     """
 
     def compute() -> Answer:
-        problem = state.problem
-        beam = problem.beam()
+        problem, beam = state.problem, state.beam
         answer = Answer(problem, beam, quick_modes(beam, wanted_modes(problem)))
         _ = answer.characteristic
         return answer
 
-    return _kept(("quick", state.key), compute)
+    return kept(("quick", state.key), compute)
 
 
 def full_answer(state: State) -> Answer:
@@ -106,14 +116,12 @@ def full_answer(state: State) -> Answer:
 
     def compute() -> Answer:
         quick, solve = quick_answer(state), state.problem.solve
-        result = solve_modes(
-            quick.beam, solve.modes, tolerance=solve.tolerance, unloaded=True, damping="none"
-        )
+        result = solve_modes(quick.beam, solve.modes, tolerance=solve.tolerance, unloaded=True)
         answer = Answer(quick.problem, quick.beam, _exact(quick.quick, result), result)
         answer.__dict__["characteristic"] = quick.characteristic
         return answer
 
-    return _kept(("full", state.key), compute)
+    return kept(("full", state.key), compute)
 
 
 def _exact(quick: Quick, result: ModalResult) -> Quick:
@@ -130,7 +138,7 @@ _kept_results: OrderedDict[Any, Any] = OrderedDict()
 _lock = threading.Lock()
 
 
-def _kept(key: Any, compute: Callable[[], Result]) -> Result:
+def kept(key: Any, compute: Callable[[], Result]) -> Result:
     """Return a result that was computed before, or compute it now."""
     with _lock:
         if key in _kept_results:

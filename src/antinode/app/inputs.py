@@ -42,15 +42,18 @@ class Input(NamedTuple):
     high: float
 
 
-def sliders(problem: Problem, original: Problem) -> tuple[Input, ...]:
+def sliders(problem: Problem, original: Problem, more: tuple[str, ...] = ()) -> tuple[Input, ...]:
     """Return the inputs that have sliders; their ranges follow from the original values.
 
     Parameters
     ----------
     problem, original : Case or BeamFile
         With the present values, and as it was opened.
+    more : tuple of str
+        Paths of further numbers.
     """
     paths = _vehicle_paths(problem) if isinstance(problem, Case) else _beam_paths(problem)
+    paths += [path for path in dict.fromkeys(more) if path not in paths]
     chosen = [find_input(problem, original, path) for path in paths]
     return tuple(item for item in chosen if item is not None)
 

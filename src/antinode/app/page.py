@@ -11,22 +11,28 @@ from typing import Any
 
 from nicegui import events, ui
 from nicegui.client import Client
+from nicegui.elements.mixins.value_element import ValueElement
 
 from antinode.beam.families import FAMILIES, FamilyName
 from antinode.errors import AntinodeError
 from antinode.examples import EXAMPLES
 
+from .controls.attach import Attachments
+from .controls.downloads import Downloads
+from .controls.equipment import EquipmentFields
+from .controls.fields import Fields
+from .controls.more import MoreSliders
+from .controls.panels import PanelChoice
+from .controls.stations import StationsDialog
+from .controls.switches import Switches
 from .display import SYSTEMS
-from .downloads import Downloads
 from .elements import Board, Picture, style_sheet
-from .equipment import EquipmentFields
-from .fields import Fields
-from .inputs import Input, numbers, sliders
+from .inputs import Input, find_input, numbers, sliders
 from .parts import SMALL, card, head_button, section
+from .physics import switches
 from .session import Session
 from .source import read_dropped, read_example
 from .state import State
-from .stations import StationsDialog
 from .uploads import register
 
 _LETTERS = {"theta": "θ", "phi": "φ", "Q_x": "Q", "Q_y": "Q"}
@@ -72,6 +78,8 @@ class Page:
             self._board = Board(self._client.id)
             self._board.on("ready", self._ready)
             self._board.on("refused", lambda e: self._note(str(e.args)))
+            self._board.on("moved", self._moved)
+            self._board.on("released", self.session.release)
             self._head = ui.element("header").classes("an-head")
             Picture("strip", "Frequencies in short", role="region").classes("an-strip")
             self._side = ui.element("aside").classes("an-side").props('aria-label="Inputs"')
@@ -94,6 +102,11 @@ class Page:
         """Show the present values in the fields."""
         with self._client:
             self._fields.refresh(problem_inputs, moving)
+            self._more.refresh()
+            state = self.session.state
+            self._switches.refresh(switches(state.problem, state.beam, state.original))
+            if self._attachments is not None:
+                self._attachments.refresh()
             self._undo.set_enabled(self.session.history.can_undo)
             pinned = bool(self.session.state.view.baseline)
             self._pin.text = "Unpin" if pinned else "Pin"
@@ -118,10 +131,6 @@ class Page:
         for box in (self._head, self._side, self._main):
             box.clear()
         vehicle = self.session.state.is_vehicle
-        self._main.classes(
-            add="an-vehicle" if vehicle else "an-beam",
-            remove="an-beam" if vehicle else "an-vehicle",
-        )
         with self._head:
             self._build_head()
         with self._side:
@@ -178,45 +187,37 @@ class Page:
             hint = "Move a slider, or type a number, with its own unit if you like."
             ui.label(hint).classes("an-hint")
             self._fields = Fields(self.session)
-            if not vehicle:
-                self._ends()
+            self._more = MoreSliders(self.session)
+            self._attachments = None if vehicle else Attachments(self.session, self._note)
+        with section("Physics" if vehicle else "Ends and physics"):
+            self._switches = Switches(self.session)
         with section("Equipment band and excitation [Hz]"):
             EquipmentFields(self.session)
         with ui.element("section").classes("an-section an-notes"):
             Picture("notes", "Results, warnings and ranges of validity", role="region")
-
-    def _ends(self) -> None:
-        """Let the user choose how a beam is held."""
-        ends = self.session.state.original
-        held = getattr(getattr(ends, "table", None), "ends", None)
-        choices = ["free", "pinned", "sliding", "clamped"]
-        with ui.element("div").classes("an-pairs"):
-            for side in ("left", "right"):
-                ui.select(
-                    choices,
-                    value=getattr(held, side, "free"),
-                    label=f"{side} end",
-                    on_change=self._end_setter(side),
-                ).props("dense options-dense outlined").classes("an-choice").mark(f"end-{side}")
-
-    def _end_setter(self, side: str) -> Callable[[events.ValueChangeEventArguments[Any]], None]:
-        return lambda e: self.session.change({f"beam.ends.{side}": str(e.value)})
 
     def _build_pictures(self, vehicle: bool) -> None:
         families = self.session.state.families
         if self.session.state.view.family not in families:  # that of another file
             self.session.look(family=families[0], component=0)
         view = self.session.state.view
-        if vehicle:
-            title = "Vehicle in its cavity, to scale, with the forces on it"
-            with card("vehicle", title):
-                pass
+        title = "Vehicle in its cavity, to scale, with the forces on it"
+        with card("vehicle", title) if vehicle else card("beam", "Beam with what it carries"):
+            if not vehicle:
+                ui.label("drag a mark along the beam").classes("an-hint")
         with card("frequencies", "Frequencies"):
-            ui.toggle(
-                {name: name.capitalize() for name in families},
-                value=view.family,
-                on_change=lambda e: self._family(e.value),
-            ).props(SMALL).mark("family")
+            names = {name: name.capitalize() for name in families}
+            chosen: ValueElement[Any]
+            if len(names) > 2:  # there is no room for as many buttons
+                chosen = ui.select(names, value=view.family).classes("an-pick an-narrow")
+                chosen.props('dense borderless options-dense aria-label="Family of modes"')
+            else:
+                chosen = ui.toggle(names, value=view.family).props(SMALL)
+            chosen.on_value_change(lambda e: self._family(e.value))
+            chosen.mark("family")
+            copy = ui.button(icon="content_copy", color=None)
+            copy.props('flat dense round size=sm aria-label="Copy the table"').mark("copy")
+            copy.on("click", js_handler="() => window.antinode.copy('frequencies')")
             self._pin = ui.button("Pin", color=None, on_click=self.session.pin).props(
                 'flat dense no-caps size=sm aria-label="Pin the frequencies as baseline"'
             )
@@ -238,8 +239,7 @@ class Page:
             pass
         with card("curve", "Frequencies [Hz] against"):
             self._curve_select()
-        with card("characteristic", "Characteristic function, zero at every mode"):
-            pass
+        PanelChoice(self.session, self._note).build()
         with card("body", "Body in mode"):
             count = self._modes_shown()
             ui.select(
@@ -290,6 +290,14 @@ class Page:
     def _ready(self, event: events.GenericEventArguments) -> None:
         self._system_dark = bool(event.args)
         self.session.again()
+
+    def _moved(self, event: events.GenericEventArguments) -> None:
+        """Take where a mark of the sketch was dragged to."""
+        path, x = str(event.args.get("path")), event.args.get("x")
+        item = find_input(self.session.state.problem, self.session.state.original, path)
+        if item is not None and isinstance(x, int | float):
+            new = float(f"{min(max(float(x), item.low), item.high):.4g}")
+            self.session.change({path: new}, moving=path)
 
     def _family(self, family: FamilyName) -> None:
         self._component.set_options(_components(family), value=0)

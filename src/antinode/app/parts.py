@@ -27,12 +27,20 @@ def section(title: str) -> Iterator[None]:
         yield
 
 
+def enlarge_button(title: str) -> None:
+    """Build the button that lets a panel fill the page, and again gives it its place."""
+    button = ui.button(icon="open_in_full", color=None)
+    button.props(f'flat dense round size=sm aria-label="Enlarge: {title}"').classes("an-enlarge")
+    button.on("click", js_handler="(e) => window.antinode.enlarge(e.currentTarget)")
+
+
 @contextmanager
 def card(kind: str, title: str) -> Iterator[None]:
     """Build a panel: its title with controls beside it, and its picture below."""
-    role = "region" if kind == "frequencies" else "img"
+    role = {"frequencies": "region", "beam": "group"}.get(kind, "img")
     with ui.element("section").classes(f"an-card an-at-{kind}"):
         with ui.element("div").classes("an-cardhead"):
             ui.label(title).classes("an-title").props('role="heading" aria-level="2"')
             yield
+            enlarge_button(title)
         Picture(kind, title, role=role)

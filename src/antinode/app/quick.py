@@ -1,7 +1,8 @@
 """Bending frequencies and shapes fast enough for a moving slider: some milliseconds.
 
 Frequencies are the compiled ones, to 1e-4; shapes are those of one chain at these frequencies.
-Modes that coincide go through `solve_modes` instead.
+Where shear, foundation or curved columns take part two chains are extrapolated, one twice as fine
+as the other. Modes that coincide, flutter or are damped go through `solve_modes` instead.
 """
 
 from __future__ import annotations
@@ -12,17 +13,24 @@ from typing import NamedTuple
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.attachments import is_damped
 from antinode.beam.beam import Beam
-from antinode.beam.families import BENDING
+from antinode.beam.families import BENDING, FAMILIES
 from antinode.modes.backends import choose
+from antinode.modes.following import certifying
 from antinode.modes.frequencies import natural_frequencies
+from antinode.modes.rigid import exact_zeros, rigid_modes
+from antinode.modes.rotation import elastic
 from antinode.modes.solve import solve_modes
+from antinode.modes.solvers import solver_of
+from antinode.riccati.chain import Chain
 
 QUICK_FAMILY = BENDING
 """The only family that is solved at once; the others come with the full solve."""
 TOLERANCE = 1e-4
 _POINTS = 121
 _REFINEMENT = 2  # of the chain whose shapes are shown
+_MODES_PER_REFINEMENT = 8
 _PARTED = 1e-6  # relative distance of omega^2 below which shapes need `solve_modes`
 
 
@@ -54,7 +62,7 @@ def warm_up() -> None:
 
 def quick_omega2(beam: Beam, modes: int) -> Array:
     """Return omega^2 of the first bending modes, for a curve."""
-    return natural_frequencies(beam, modes, tolerance=TOLERANCE).omega2
+    return _found(beam, modes)[0]
 
 
 def quick_modes(beam: Beam, modes: int) -> Quick:
@@ -65,17 +73,52 @@ def quick_modes(beam: Beam, modes: int) -> Quick:
     ComputationError
         If they cannot be computed.
     """
-    found = natural_frequencies(beam, modes, tolerance=TOLERANCE)
-    if np.any(np.diff(found.omega2) <= _PARTED * np.abs(found.omega2[1:])):
+    if is_damped(beam.attachments, QUICK_FAMILY):
         return _full_modes(beam, modes)
-    chain = beam.chain(QUICK_FAMILY, _REFINEMENT).cut_at(np.linspace(0.0, beam.length, _POINTS))
+    omega2, error, chain = _found(beam, modes)
+    if len(omega2) < modes or np.any(np.diff(omega2) <= _PARTED * np.abs(omega2[1:])):
+        return _full_modes(beam, modes)
+    chain = chain or beam.chain(QUICK_FAMILY, _REFINEMENT)
+    chain = chain.cut_at(np.linspace(0.0, beam.length, _POINTS))
     with np.errstate(all="ignore"):
-        states = choose().mode_states(chain, found.omega2, np.ones(modes, dtype=np.int64))
-    return Quick(found.omega2, found.error_omega2, beam.x[0] + chain.nodes, _scaled(states))
+        states = choose().mode_states(chain, omega2, np.ones(modes, dtype=np.int64))
+    return Quick(omega2, error, beam.x[0] + chain.nodes, _scaled(states))
+
+
+def _found(beam: Beam, modes: int) -> tuple[Array, Array, Chain | None]:
+    """Return omega^2, its error, and the chain that has it, if any."""
+    if is_damped(beam.attachments, QUICK_FAMILY):
+        full = _full_modes(beam, modes)
+        return full.omega2, full.error, None
+    if beam.is_curved or FAMILIES[QUICK_FAMILY].used(beam):
+        found = _extrapolated(beam, modes)
+        if found is not None:
+            return found
+    plain = natural_frequencies(beam, modes, tolerance=TOLERANCE)
+    return plain.omega2, plain.error_omega2, None
+
+
+def _extrapolated(beam: Beam, modes: int) -> tuple[Array, Array, Chain] | None:
+    """Extrapolate two chains whose error falls as the fourth power; None where that is too far."""
+    rigid = len(rigid_modes(beam, QUICK_FAMILY))
+    zeros = exact_zeros(beam, QUICK_FAMILY)
+    solver = certifying(solver_of("riccati", choose()), beam, QUICK_FAMILY)
+    refinement = max(1, (modes + rigid) // _MODES_PER_REFINEMENT)
+    levels: list[Array] = []
+    for finer in (refinement, 2 * refinement):
+        chain = beam.chain(QUICK_FAMILY, finer)
+        listed = elastic(solver.find(chain, modes + rigid, zeros=zeros).eigenvalues, rigid, chain)
+        if len(listed) < modes or any(value.imaginary for value in listed[:modes]):
+            return None
+        levels.append(np.array([value.omega2 for value in listed[:modes]]))
+    change = (levels[1] - levels[0]) / 15
+    if np.any(np.abs(change) > 2 * TOLERANCE * np.abs(levels[1])):
+        return None
+    return levels[1] + change, np.abs(change), chain
 
 
 def _full_modes(beam: Beam, modes: int) -> Quick:
-    result = solve_modes(beam, modes, tolerance=TOLERANCE, families=[QUICK_FAMILY], damping="none")
+    result = solve_modes(beam, modes, tolerance=TOLERANCE, families=[QUICK_FAMILY])
     found = [mode for mode in result.modes if mode.number][:modes]
     states = np.stack([mode.states for mode in found], axis=1)
     error = np.array([mode.error_omega2 for mode in found])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import secrets
 import sys
@@ -112,10 +113,11 @@ def add_page(state: State) -> None:
 
     app.add_route(ADDRESS, route(), methods=["POST"])
 
-    def index(request: Request) -> None:
+    async def index(request: Request) -> None:
         from .page import Page
 
-        Page(*opened(state, dict(request.query_params)))
+        # beside the event loop: a link may hold a whole file
+        Page(*await asyncio.to_thread(opened, state, dict(request.query_params)))
 
     index.__annotations__["request"] = Request
     ui.page("/", title="antinode")(index)

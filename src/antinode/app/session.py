@@ -10,20 +10,26 @@ import asyncio
 import json
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from typing import Any, Protocol
 from urllib.parse import urlencode
 
 from antinode.errors import AntinodeError, InputError
 
-from .compute import Answer, full_answer, quick_answer
+from .compute import Answer, full_answer, kept, quick_answer
 from .curve import Curve, curve_key, grow_curve
 from .inputs import Input, find_input, sliders
 from .panels.characteristic import characteristic_data
-from .panels.curve import cursor_data, curve_data
+from .panels.compare import Snapshot, compare_data, snapshot
+from .panels.curve import cursor_data, curve_data, no_curve
+from .panels.effects import effects_data, ends_data
 from .panels.forces import forces_data
 from .panels.frequencies import baseline_of, frequencies_data
 from .panels.modes import modes_data
 from .panels.notes import notes_data
+from .panels.sheet import said
+from .panels.sketch import sketch_data
+from .panels.stability import stability_data
 from .panels.vehicle import vehicle_data
 from .scene3d import body_data
 from .state import File, History, State, Value, fields_of
@@ -31,6 +37,14 @@ from .state import File, History, State, Value, fields_of
 _workers = ThreadPoolExecutor(max_workers=2, thread_name_prefix="antinode")
 _SETTLED = 0.2
 """Time without a change after which the full result is computed [s]."""
+_MOST_KEPT = 12  # snapshots
+PANELS: dict[str, Callable[[Answer], dict[str, Any]]] = {
+    "effects": effects_data,
+    "ends": ends_data,
+    "stability": stability_data,
+    "compare": lambda _: said(""),
+}
+"""Panels that take a full result, and are computed while they are looked at."""
 
 
 class Face(Protocol):
@@ -68,6 +82,7 @@ class Session:
         self._version = 0
         self._sequence = 0
         self._moved = self._dragged = ""
+        self._snapshots: list[Snapshot] = []
         self._task: asyncio.Task[None] | None = None
         self._curve: Curve | None = None
 
@@ -112,6 +127,39 @@ class Session:
         if self.answer:
             self.look(baseline=() if pinned else baseline_of(self.answer))
 
+    def keep(self) -> str:
+        """Keep the present state as a snapshot, and return its name; empty where it is not solved.
+
+        It can be gone back to, and is compared with what comes after it.
+        """
+        if self.answer is None or self.answer.full is None or self.error:
+            return ""
+        name = chr(ord("A") + len(self._snapshots) % 26)
+        self._snapshots = [*self._snapshots, snapshot(name, self.state, self.answer)][-_MOST_KEPT:]
+        self._start()
+        return name
+
+    def drop(self) -> None:
+        """Forget all snapshots."""
+        self._snapshots = []
+        self._start()
+
+    @property
+    def snapshots(self) -> tuple[str, ...]:
+        """Names of the snapshots."""
+        return tuple(one.name for one in self._snapshots)
+
+    def go_back(self, name: str) -> None:
+        """Take the values of a snapshot again: a step that can be undone."""
+        chosen = next(one for one in self._snapshots if one.name == name).state
+        before = self.state.file
+        self.history.put(replace(chosen, view=self.state.view))
+        self._dragged = ""
+        self._start()
+        if chosen.file is not before:
+            self.forget()
+            self._face.rebuild()
+
     def forget(self) -> None:
         """Forget what the browser has: everything is sent anew."""
         self._sent.clear()
@@ -131,7 +179,8 @@ class Session:
     async def _work(self) -> None:
         while True:
             version, state = self._version, self.state
-            for step in (self._quick, self._coarse_curve, self._settled, self._full, self._curves):
+            steps = self._quick, self._coarse_curve, self._settled, self._full
+            for step in (*steps, self._panel, self._curves):
                 if not await step(state) or version != self._version:
                     break
             if version == self._version:
@@ -153,6 +202,25 @@ class Session:
         done = await self._show(state, full_answer)
         self._send({}, address=self._address(state))
         return done
+
+    async def _panel(self, state: State) -> bool:
+        """Compute what the chosen panel shows, if that takes a full result."""
+        if state.view.panel not in PANELS or self.answer is None or self.answer.full is None:
+            return True
+        answer, panel = self.answer, state.view.panel
+        try:
+            data = await self.run(lambda: self._panel_data(panel, state, answer))
+        except AntinodeError as error:
+            data = said(str(error))
+        if state is self.state:
+            self._send({panel: data})
+        return True
+
+    def _panel_data(self, panel: str, state: State, answer: Answer) -> dict[str, Any]:
+        if panel == "compare":
+            now = snapshot("now", state, answer)
+            return compare_data(self._snapshots, now, state.view.family)
+        return kept((panel, state.key), lambda: PANELS[panel](answer))
 
     async def _show(self, state: State, compute: Callable[[State], Answer]) -> bool:
         """Compute an answer and send it; on an error say so and keep the last one."""
@@ -181,7 +249,8 @@ class Session:
         self, state: State, answer: Answer
     ) -> tuple[Answer, dict[str, Any], tuple[Input, ...]]:
         """Work out what every panel shows."""
-        view, inputs = state.view, sliders(state.problem, state.original)
+        view = state.view
+        inputs = sliders(state.problem, state.original, view.sliders)
         data = {
             "forces": forces_data(answer, view.units),
             "modes": modes_data(answer, view),
@@ -192,6 +261,8 @@ class Session:
         }
         if answer.case is not None:
             data["vehicle"] = vehicle_data(answer.case, view.units)
+        else:
+            data["beam"] = sketch_data(answer, view.units)
         item = self.curve_input(state, inputs)
         if item is not None:
             data["curve"] = self._curve_patch(state, item, answer)
@@ -209,13 +280,18 @@ class Session:
         curve = self._curve
         if curve is not None and curve.key == curve_key(state, item):
             patch["curve"] = curve_data(curve, item, state.view.units)
+        elif curve is not None and (curve.path != item.path or answer.is_damped):
+            patch["curve"] = no_curve(item, state.view.units)
         return patch
 
     async def _coarse_curve(self, state: State) -> bool:
+        if self.answer is not None and self.answer.is_damped:
+            return True
         return await self._grow(state, 1)
 
     async def _curves(self, state: State) -> bool:
-        return await self._grow(state, 4)
+        damped = self.answer is not None and self.answer.is_damped  # a point takes a second then
+        return await self._grow(state, 1 if damped else 4)
 
     async def _grow(self, state: State, levels: int) -> bool:
         """Compute the curve so far that it has so many levels, and send each of them."""

@@ -13,8 +13,11 @@ import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Self
+from typing import Annotated, Any, Literal, Self
 
+from pydantic import Field
+
+from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FamilyName
 from antinode.beam.file import BeamFile
 from antinode.beam.limits import check_limits
@@ -38,6 +41,9 @@ _MOST_UNPACKED = 2_000_000
 _TELLING = 12  # characters of a fingerprint in a link
 
 
+Panel = Literal["characteristic", "effects", "ends", "stability", "compare"]
+
+
 class View(Frozen):
     """How a page looks at its problem."""
 
@@ -48,6 +54,8 @@ class View(Frozen):
     modes: tuple[int, ...] = (1, 2, 3)
     body: int = 1
     curve: str = ""
+    panel: Panel = "characteristic"
+    sliders: Annotated[tuple[str, ...], Field(max_length=30)] = ()
     band: tuple[float, float] | None = None
     lines: tuple[float, ...] = ()
     margin: float = 0.05
@@ -80,11 +88,32 @@ class File:
         """What tells this file from others."""
         return hashlib.sha256(json.dumps(plain(self.tables)).encode()).hexdigest()
 
+    @cached_property
+    def checked(self) -> tuple[Problem, Beam]:
+        """The case or the beam file, and its beam.
+
+        Raises
+        ------
+        InputError
+            If a value is wrong.
+        """
+        return _checked(self.tables, self.origin)
+
     def packed(self) -> str:
         """Return the file for a link, as it is written too where that is short enough."""
         data = {"origin": self.origin, "tables": self.tables}
         whole = packed({**data, "text": self.text})
         return whole if len(whole) < LONGEST_LINK // 2 else packed(data)
+
+
+def _checked(tables: Tables, where: str) -> tuple[Problem, Beam]:
+    """Return the case or the beam file of some tables, and its beam."""
+    model: type[Case] | type[BeamFile] = Case if "vehicle" in tables else BeamFile
+    problem = validate(model, tables, where)
+    with naming(where):
+        beam = problem.beam()
+        check_limits(beam)
+    return problem, beam
 
 
 _VIEW = View()
@@ -112,14 +141,20 @@ class State:
         return "vehicle" in self.file.tables
 
     def changed(self, changes: Mapping[str, Value]) -> Self:
-        """Return the state with further values changed."""
-        return replace(self, changes={**self.changes, **changes})
+        """Return the state with further values changed; a table takes the place of its entries."""
+        inside = tuple(f"{path}." for path in changes)
+        kept = {
+            path: value
+            for path, value in self.changes.items()
+            if path not in changes and not path.startswith(inside)
+        }
+        return replace(self, changes=kept | dict(changes))
 
     def viewed(self, **how: Any) -> Self:
         """Return the state looked at in another way."""
         return replace(self, view=View.model_validate(self.view.model_dump() | how))
 
-    @cached_property
+    @property
     def problem(self) -> Problem:
         """The case or the beam file with all changes.
 
@@ -128,26 +163,29 @@ class State:
         InputError
             If a value is wrong: the sentence of the command line.
         """
-        return self._checked(self.changes)
+        return self._solvable[0]
+
+    @property
+    def beam(self) -> Beam:
+        """The beam of the problem."""
+        return self._solvable[1]
 
     @cached_property
+    def _solvable(self) -> tuple[Problem, Beam]:
+        if not self.changes:
+            return self.file.checked
+        tables = with_changes(self.file.tables, self.changes)
+        return _checked(tables, f"{self.file.origin} (with --set)")
+
+    @property
     def original(self) -> Problem:
         """The case or the beam file as it was opened."""
-        return self._checked({})
+        return self.file.checked[0]
 
-    def _checked(self, changes: Mapping[str, Value]) -> Problem:
-        where = f"{self.file.origin} (with --set)" if changes else self.file.origin
-        tables = with_changes(self.file.tables, changes)
-        model: type[Case] | type[BeamFile] = Case if self.is_vehicle else BeamFile
-        checked = validate(model, tables, where)
-        with naming(where):
-            check_limits(checked.beam())
-        return checked
-
-    @cached_property
+    @property
     def families(self) -> tuple[FamilyName, ...]:
         """The families of modes that the file as it was opened has the columns for."""
-        return self.original.beam().families
+        return self.file.checked[1].families
 
     @cached_property
     def key(self) -> str:

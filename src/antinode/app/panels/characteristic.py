@@ -19,6 +19,7 @@ def characteristic_data(answer: Answer) -> dict[str, Any]:
     omega2 = answer.quick.omega2
     return {
         "points": pairs(frequencies, np.cbrt(values / size)),
-        "roots": short_list(hertz(omega2[omega2 > 0]), 6),
+        "roots": [] if answer.is_damped else short_list(hertz(omega2[omega2 > 0]), 6),
+        "note": "without dampers and feedback" if answer.is_damped else "",
         "divergent": int(np.sum(omega2 < 0)),
     }

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from antinode.app.curve import Curve
 from antinode.app.display import System, shown_unit
 from antinode.app.inputs import Input
@@ -25,6 +27,11 @@ def curve_data(curve: Curve, item: Input, system: System) -> dict[str, Any]:
         "high": unit.of(item.high),
         "lines": [pairs(x, column) for column in frequencies.T],
     }
+
+
+def no_curve(item: Input, system: System) -> dict[str, Any]:
+    """Return the frame of a curve that is not computed yet."""
+    return curve_data(Curve("", item.path, np.empty(0), np.empty((0, 0))), item, system)
 
 
 def cursor_data(item: Input, omega2: Array, system: System) -> dict[str, Any]:

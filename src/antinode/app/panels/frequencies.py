@@ -14,17 +14,30 @@ from antinode.modes.result import Mode
 
 
 class Row(NamedTuple):
-    """A mode of the table: name, omega^2, its error, shift by the axial force, effect of shear."""
+    """A mode of the table.
+
+    Attributes
+    ----------
+    name : str
+    hertz, error : float
+        Frequency and the bound on its error [Hz]; NaN where it does not oscillate.
+    shift, shear : float or None
+        Relative changes by the axial force, and by shear and rotary inertia.
+    damping : str
+        Of a complex mode: how it decays or grows.
+    """
 
     name: str
-    omega2: float
-    error_omega2: float
-    shift: float
-    model_error: float | None = None
+    hertz: float
+    error: float
+    shift: float = math.nan
+    shear: float | None = None
+    damping: str = ""
+    kind: str = "elastic"
 
 
 def frequencies_data(answer: Answer, view: View) -> dict[str, Any]:
-    """Return rows, bars, band and excitation lines."""
+    """Return rows, bars, band and excitation lines, and what the model leaves out."""
     rows = frequency_rows(answer, view.family)
     baseline = dict(view.baseline)
     shown = [_shown(row, baseline.get(row.name), view) for row in rows]
@@ -38,8 +51,15 @@ def frequencies_data(answer: Answer, view: View) -> dict[str, Any]:
         "lines": list(view.lines),
         "margin": view.margin,
         "pinned": bool(baseline),
+        "damped": any(row.damping for row in rows),
         "quick": answer.full is None,
+        "left_out": [short_name(words) for words in answer.left_out],
     }
+
+
+def short_name(words: str) -> str:
+    """Return what is left out without what is said of it."""
+    return words.partition(" (")[0].partition(":")[0]
 
 
 def frequency_rows(answer: Answer, family: FamilyName) -> list[Row]:
@@ -51,28 +71,49 @@ def frequency_rows(answer: Answer, family: FamilyName) -> list[Row]:
         return []
     quick = answer.quick
     values = zip(quick.omega2.tolist(), quick.error.tolist(), strict=True)
-    return [Row(f"{family} {n}", w2, e, math.nan) for n, (w2, e) in enumerate(values, 1)]
+    return [
+        Row(f"{family} {n}", hertz(w2), error_hz(w2, e), kind=_kind(w2))
+        for n, (w2, e) in enumerate(values, 1)
+    ]
+
+
+def _kind(omega2: float) -> str:
+    return "divergent" if omega2 < 0 else "elastic"
 
 
 def _row(mode: Mode) -> Row:
-    return Row(mode.name, mode.omega2, mode.error_omega2, mode.shift, mode.by_shear)
+    still = mode.kind in ("divergent", "overdamped")
+    values = (math.nan, math.nan) if still else (mode.frequency_hz, mode.error_hz)
+    return Row(mode.name, *values, mode.shift, mode.by_shear, damping_text(mode), mode.kind)
+
+
+def damping_text(mode: Mode) -> str:
+    """Say how a complex mode decays or grows; empty for a real one."""
+    if mode.eigenvalue is None and not mode.growth:
+        return ""
+    if mode.kind in ("divergent", "overdamped", "flutter"):
+        return f"{mode.eigenvalue_per_s.real:+.3g} /s"
+    if abs(mode.eigenvalue_per_s.real) <= mode.error_growth_rate_per_s:
+        return "0"
+    return f"{100 * mode.damping_ratio:.3g}%"
 
 
 def _shown(row: Row, baseline: float | None, view: View) -> dict[str, Any]:
-    frequency = hertz(row.omega2)
-    divergent = math.isnan(frequency)
-    error = error_hz(row.omega2, row.error_omega2)
+    still = math.isnan(row.hertz)
+    changed = bool(baseline) and not still
     return {
         "name": row.name,
         "number": row.name.rpartition(" ")[2],
-        "hz": None if divergent else frequency,
-        "text": "divergent" if divergent else f"{frequency:.6g}",
-        "error": "" if divergent else f"{error:.0e}",
+        "hz": None if still else row.hertz,
+        "text": row.kind if still else f"{row.hertz:.6g}",
+        "kind": row.kind,
+        "error": "" if math.isnan(row.error) else f"{row.error:.0e}",
         "shift": "" if math.isnan(row.shift) else change_text(row.shift, 1),
-        "shear": "" if divergent or row.model_error is None else change_text(row.model_error, 1),
+        "shear": "" if still or row.shear is None else change_text(row.shear, 1),
+        "damping": row.damping,
         "baseline": baseline,
-        "change": "" if divergent or not baseline else change_text(frequency / baseline - 1, 2),
-        "flag": "" if divergent else flag(frequency, view),
+        "change": change_text(row.hertz / baseline - 1, 2) if baseline and changed else "",
+        "flag": "" if still else flag(row.hertz, view),
     }
 
 
@@ -96,4 +137,4 @@ def baseline_of(answer: Answer) -> tuple[tuple[str, float], ...]:
     """Return the frequencies of an answer, to be pinned."""
     families = answer.full.families if answer.full else (QUICK_FAMILY,)
     rows = [row for family in families for row in frequency_rows(answer, family)]
-    return tuple((row.name, float(f"{hertz(row.omega2):.7g}")) for row in rows if row.omega2 >= 0)
+    return tuple((row.name, float(f"{row.hertz:.7g}")) for row in rows if not math.isnan(row.hertz))

@@ -18,6 +18,7 @@ def notes_data(answer: Answer, system: System) -> dict[str, Any]:
         "facts": _facts(case, system) if case else _beam_facts(answer, system),
         "warnings": answer.warnings,
         "quick": answer.full is None,
+        "left_out": list(answer.left_out),
         "ranges": [_range(row) for row in case.loads.validity] if case else [],
     }
 

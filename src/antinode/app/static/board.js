@@ -6,6 +6,7 @@ export default {
   props: { address: String },
   mounted() {
     document.documentElement.lang = "en";
+    registry.emit = (name, data) => this.$emit(name, data);
     const system = window.matchMedia("(prefers-color-scheme: dark)");
     document.fonts.ready.then(() => this.$emit("ready", system.matches));
     this.themes = new MutationObserver(() => requestAnimationFrame(() => registry.retheme()));
@@ -26,19 +27,11 @@ export default {
       dragenter: (e) => files(e) && (e.preventDefault(), this.over++, bar?.classList.add("an-drop")),
       dragover: (e) => files(e) && e.preventDefault(),
       dragleave: (e) => files(e) && --this.over <= 0 && bar?.classList.remove("an-drop"),
+      keydown: (e) => e.key === "Escape" && registry.shrink(),
       drop: (e) => {
         if (!files(e)) return;
         e.preventDefault();
-        // Menus and dialogs hang at the end of the body: landmarks of their own for screen readers.
-    this.portals = new MutationObserver((changes) => {
-      for (const node of changes.flatMap((c) => [...c.addedNodes])) {
-        if (!node.id?.startsWith("q-portal--menu")) continue;
-        node.setAttribute("role", "region");
-        node.setAttribute("aria-label", "Menu");
-      }
-    });
-    this.portals.observe(document.body, { childList: true });
-    this.over = 0;
+        this.over = 0;
         bar?.classList.remove("an-drop");
         this.$emit("dropped");
         this.send(e.dataTransfer.files);

@@ -207,8 +207,10 @@ export function modes(element) {
 }
 
 export function characteristic(element) {
+  const note = (data, t) => ({ text: data.note, right: 14, top: 2, padding: [2, 0], textStyle: { color: t.muted, fontSize: 11, fontWeight: 400, fontFamily: FONT } });
   const full = (data, t) => ({
-    grid: { left: 26, right: 14, top: 10, bottom: 36 },
+    title: note(data, t),
+    grid: { left: 26, right: 14, top: data.note ? 22 : 10, bottom: 36 },
     xAxis: xAxis(t, "frequency [Hz]", { min: 0, max: data.points[data.points.length - 1][0], axisLabel: { ...label(t), formatter: rounded, showMaxLabel: false } }),
     yAxis: axis(t, "", { min: -1.08, max: 1.08, interval: 1.08, splitLine: { show: false }, axisLabel: { ...label(t), formatter: (v) => (Math.abs(v) < 0.1 ? "0" : "") } }),
     tooltip: tooltip(t, (points) => `${rounded(points[0].value[0])} Hz`),
@@ -232,6 +234,7 @@ export function characteristic(element) {
     ],
   });
   const quick = (data, t) => ({
+    title: note(data, t),
     xAxis: { max: data.points[data.points.length - 1][0] },
     series: full(data, t).series.map((s) => ({ id: s.id, data: s.data, tooltip: s.tooltip })),
   });

@@ -7,6 +7,7 @@ const HEADS = [
   ["error", "±"],
   ["bar", "on one scale"],
   ["change", "vs pinned"],
+  ["damping", "damping"],
   ["shift", "by N"],
   ["shear", "by shear"],
 ];
@@ -23,13 +24,16 @@ export function frequencies(element) {
     row.append(cell);
   }
   row.querySelector(".an-shift").title = "change by the axial force";
+  row.querySelector(".an-damping").title = "ratio of the damping, or the rate of growth";
   row.querySelector(".an-error").title = "bound on the error [Hz] of this model";
   row.querySelector(".an-shear").title = "effect of shear and rotary inertia: solved, or estimated where the theory leaves them out";
   head.append(row);
   const rows = html("tbody");
   table.append(caption, head, rows);
   const foot = html("div", "an-foot");
-  element.append(table, foot);
+  const left = html("div", "an-left");
+  element.append(table, foot, left);
+  let last = null;
 
   function bar(data, r) {
     const box = html("div", "an-barbox");
@@ -68,9 +72,9 @@ export function frequencies(element) {
       mark.setAttribute("aria-label", r.flag);
       name.append(mark);
     }
-    const cells = [html("td", "an-hz", r.text), html("td", "an-error", r.error), html("td", "an-bar")];
+    const cells = [html("td", r.hz === null ? "an-hz an-kind" : "an-hz", r.text), html("td", "an-error", r.error), html("td", "an-bar")];
     cells[2].append(bar(data, r));
-    tr.append(name, ...cells, html("td", "an-change", r.change), html("td", "an-shift", r.shift));
+    tr.append(name, ...cells, html("td", "an-change", r.change), html("td", "an-damping", r.damping), html("td", "an-shift", r.shift));
     tr.append(html("td", "an-shear", r.shear));
     return tr;
   }
@@ -78,20 +82,29 @@ export function frequencies(element) {
   let count = 0;
   let family = "";
   const fit = () => {
-    const room = (element.clientHeight - 30 - foot.offsetHeight) / Math.max(count, 1) - 1;
+    const room = (element.clientHeight - 30 - foot.offsetHeight - left.offsetHeight) / Math.max(count, 1) - 1;
     table.style.setProperty("--an-row", `${Math.max(20, Math.min(38, Math.floor(room)))}px`);
   };
 
   return {
     resize: fit,
+    text() {
+      if (!last) return "";
+      const heads = ["mode", "frequency [Hz]", "error [Hz]", "vs pinned", "damping", "by N", "by shear"];
+      const rows = last.rows.map((r) => [r.name, r.text, r.error, r.change, r.damping, r.shift, r.shear]);
+      return [heads, ...rows, [`not in the model: ${last.left_out.join("; ")}`]].map((c) => c.join("\t")).join("\n");
+    },
     show(data) {
       if (data.quick && !data.rows.length && data.family === family) {
         table.classList.add("an-quick"); // the last rows stay until the full result is there
         return;
       }
       family = data.family;
+      last = data;
+      left.textContent = `Not in the model: ${data.left_out.join("; ")}.`;
       table.classList.toggle("an-pinned", data.pinned);
       table.classList.toggle("an-quick", data.quick);
+      table.classList.toggle("an-damped", data.damped);
       rows.replaceChildren(...data.rows.map((r) => line(data, r)));
       count = data.rows.length;
       const flagged = data.rows.filter((r) => r.flag);

@@ -25,6 +25,10 @@ export function notes(element) {
         }
         parts.push(list);
       }
+      parts.push(html("h3", "", "Not in the model"));
+      const left = html("ul", "an-ranges an-leftout");
+      for (const text of data.left_out) left.append(html("li", "", text));
+      parts.push(left);
       element.replaceChildren(...parts);
     },
   };

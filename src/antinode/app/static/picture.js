@@ -1,7 +1,7 @@
 import { kinds, registry } from "antinode-app";
 
 export default {
-  template: `<div class="an-picture" :role="role" :aria-label="label" :tabindex="role === 'img' ? null : 0"></div>`,
+  template: `<div class="an-picture" :role="role" :data-name="name" :aria-label="label" :tabindex="role === 'region' ? 0 : null"></div>`,
   props: { kind: String, name: String, label: String, role: String },
   mounted() {
     this.view = kinds[this.kind](this.$el);

@@ -7,10 +7,9 @@ from typing import Any
 
 from nicegui import ui
 
+from antinode.app.save import case_toml, report_file, result_file
+from antinode.app.session import Session
 from antinode.errors import AntinodeError
-
-from .save import case_toml, report_file, result_file
-from .session import Session
 
 
 class Downloads:

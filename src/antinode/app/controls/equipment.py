@@ -7,9 +7,8 @@ from typing import Any
 
 from nicegui import ui
 
+from antinode.app.session import Session
 from antinode.errors import InputError
-
-from .session import Session
 
 
 class EquipmentFields:

@@ -6,13 +6,12 @@ import math
 
 from nicegui import events, ui
 
+from antinode.app.display import number_text, shown_unit
+from antinode.app.inputs import Input
+from antinode.app.session import Session
+from antinode.app.state import Value
 from antinode.vehicle.case import Case
 from antinode.vehicle.hydrodynamics.cavitation_number import resolve_cavitation
-
-from .display import number_text, shown_unit
-from .inputs import Input
-from .session import Session
-from .state import Value
 
 
 class Slider(ui.slider):
@@ -39,12 +38,14 @@ class Field:
         named = f"{item.label} [{self.unit.name}]" if self.unit.name else item.label
         with ui.element("div").classes("an-field") as self._box:
             with ui.element("div").classes("an-fieldhead"):
-                ui.label(item.label).classes("an-label")
+                ui.label(item.label).classes("an-label").tooltip(item.path)
+                if item.path in session.state.view.sliders:
+                    self._build_remover()
                 self._text = (
                     ui.input(value=self._shown(item.value))
                     .props(f'dense borderless aria-label="{named}" suffix="{self.unit.name}"')
                     .props('input-class="an-number" maxlength=60')
-                    .classes("an-input")
+                    .classes("an-input an-longunit" if len(self.unit.name) > 6 else "an-input")
                     .mark(f"field-{item.path}")
                 )
             self._slider = (
@@ -64,6 +65,16 @@ class Field:
         self._text.on("blur", self._left, [])
         self._slider.on_value_change(self._slid)
         self._slider.on("change", self._released, [None])
+
+    def _build_remover(self) -> None:
+        """Build the button that takes away a slider that was added."""
+        button = ui.button(icon="close", color=None, on_click=self._taken_away)
+        button.props(f'flat dense round size=xs aria-label="Take away {self.item.label}"')
+        button.classes("an-remover")
+
+    def _taken_away(self) -> None:
+        rest = (path for path in self._session.state.view.sliders if path != self.item.path)
+        self._session.look(sliders=tuple(rest))
 
     def _grid(self, item: Input) -> tuple[float, float]:
         """Return ends of the slider such that the value it was built with is on its grid."""
@@ -166,7 +177,8 @@ class Fields:
 
     def refresh(self, items: tuple[Input, ...], moving: str) -> None:
         """Show the present values; build the fields anew where other ones are needed."""
-        kind = (*(item.path for item in items), self._session.state.view.units)
+        view = self._session.state.view
+        kind = (*(item.path for item in items), *view.sliders, view.units)
         if kind != self._kind:
             self._build(items)
             self._kind = kind

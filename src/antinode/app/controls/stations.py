@@ -6,10 +6,9 @@ from typing import Any
 
 from nicegui import ui
 
+from antinode.app.session import Session
+from antinode.app.station_table import CellError, StationTable, block_of, columns_of, unit_of
 from antinode.errors import AntinodeError
-
-from .session import Session
-from .station_table import CellError, StationTable, block_of, columns_of, unit_of
 
 _PASTE = """(e) => {
   const cell = document.activeElement?.closest?.(".ag-cell");

@@ -1,0 +1,1 @@
+"""What the user takes hold of: fields, switches, tables, menus."""
