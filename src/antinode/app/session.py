@@ -82,6 +82,7 @@ class Session:
         self._version = 0
         self._sequence = 0
         self._moved = self._dragged = ""
+        self._answered: State | None = None
         self._snapshots: list[Snapshot] = []
         self._task: asyncio.Task[None] | None = None
         self._curve: Curve | None = None
@@ -195,8 +196,10 @@ class Session:
 
     def release(self) -> None:
         """Take note that a slider was let go: the next move is a step of its own."""
-        self._dragged = ""
+        moved, self._dragged = self._dragged, ""
         self.history.end_gesture()
+        if moved and self._answered is self.state:  # else its answer brings the fields along
+            self._face.refresh(self.inputs, "")
 
     async def _full(self, state: State) -> bool:
         done = await self._show(state, full_answer)
@@ -233,6 +236,7 @@ class Session:
             self._fail(f"{type(error).__name__}: {error}; this is a bug in antinode")
             return False
         self.answer, self.inputs, self.error = answer, inputs, ""
+        self._answered = state
         self._face.complain("", "")
         self._send(data, stale=False)
         if state is self.state:
