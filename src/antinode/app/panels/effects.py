@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from antinode.app.compute import Answer
+from antinode.app.quick import QUICK_FAMILY
 from antinode.modes.result import ModalResult
 from antinode.show.each_effect import each_effect
 from antinode.vehicle.case import Case
@@ -50,7 +51,7 @@ def _any(change: np.ndarray) -> bool:
 
 
 def _numbered(result: ModalResult) -> list[Any]:
-    return [mode for mode in result.family("bending") if mode.number]
+    return [mode for mode in result.family(QUICK_FAMILY) if mode.number]
 
 
 def _cell(change: float, largest: float) -> dict[str, Any]:
