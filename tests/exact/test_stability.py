@@ -39,7 +39,7 @@ def checked(result):
         assert each.load_factor + each.error <= high
         assert each.proven
         assert each.certificate.unstable[0] != each.certificate.unstable[1]
-        assert high - low <= max(1e-7 * high, 0.1 * (each.load_factor == 0))
+        assert high - low <= max(1e-5 * high, 0.1 * (each.load_factor == 0))
     return result
 
 

@@ -73,12 +73,11 @@ class Finder:
         certificate, poles = self._certify(wanted)
         places, values = self._scan(certificate.below, poles, hints.real)
         missing = certificate.number - self.zeros
-        brackets, floor = _changes(places, values), self._floor
+        brackets, floor = self._told_apart(places, values), self._floor
         while len(brackets) > missing and floor < 1e-5 * self.scale:  # rounding beside zero
             floor *= 10
             keep = np.abs(places) > floor
-            brackets = _changes(places[keep], values[keep])
-        brackets = _told_apart(brackets, _BLURRED * self.scale)
+            brackets = self._told_apart(places[keep], values[keep])
         found = self.shrink(brackets)
         found += [Eigenvalue(0, 0.0, (-floor, floor), (0, 0))] * self.zeros
         if len(brackets) < missing:
@@ -148,6 +147,9 @@ class Finder:
         places = np.unique(places[(places >= lowest) & (places <= R)])
         places = places[np.abs(places) >= self._floor]
         return places, self.divided(places)
+
+    def _told_apart(self, places: Array, values: Array) -> list[Bracket]:
+        return _without_rounding(_changes(places, values), _BLURRED * self.scale)
 
     def _near_zero(self) -> Array:
         steps = self.scale * 10.0 ** np.arange(-13, 1)
@@ -332,7 +334,7 @@ def _changes(places: Array, values: Array) -> list[Bracket]:
     return [(a, b, c, d) for a, b, c, d in rows.tolist()]
 
 
-def _told_apart(brackets: list[Bracket], blurred: float) -> list[Bracket]:
+def _without_rounding(brackets: list[Bracket], blurred: float) -> list[Bracket]:
     """Take three or more changes of sign close to zero for one, if odd in number, or for two.
 
     A double root at zero, of a body whose turn is free, makes its neighbourhood so flat that
