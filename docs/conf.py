@@ -81,10 +81,13 @@ def plain_signature(app, what, name, obj, options, signature, returned):
     if what == "class" and issubclass(obj, BaseModel):
         keys = (f.alias or key for key, f in obj.model_fields.items())
         return f"(*, {', '.join(keys)})", None
-    plain = [
-        text and re.sub(r"~?\b(?:\w+\.)+(?=[A-Za-z])", "", text) for text in (signature, returned)
-    ]
-    return tuple(plain)
+    return tuple(text and plain_types(text) for text in (signature, returned))
+
+
+def plain_types(text):
+    """Take modules off names; arrays inside other types, which aliases do not reach, are Arrays."""
+    plain = re.sub(r"~?\b(?:\w+\.)+(?=[A-Za-z])", "", text)
+    return re.sub(r"ndarray\[tuple\[Any, \.\.\.\], dtype\[\w+\]\]", "Array", plain)
 
 
 def formula(translator, node):

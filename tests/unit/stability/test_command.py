@@ -42,7 +42,8 @@ def test_json_is_as_others_rely_on(beck):
     assert only["certificate"] == {"kind": "winding", "unstable": [0, 2], "eigenvalues": [6, 6]}
 
 
-def test_the_table_says_what_is_proven_and_what_is_left_out(beck, tmp_path):
+def test_the_table_says_what_is_proven_and_what_is_left_out(beck, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "120")
     out = tmp_path / "critical.csv"
     ended = run("stability", beck, "-o", out)
     assert ended.code == 0
