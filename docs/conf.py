@@ -90,6 +90,13 @@ def plain_types(text):
     return re.sub(r"ndarray\[tuple\[Any, \.\.\.\], dtype\[\w+\]\]", "Array", plain)
 
 
+def aliases_as_words(app, tree):
+    """Name arrays as people do in what an alias stands for."""
+    for node in tree.findall(nodes.paragraph):
+        if "ndarray[tuple" in node.astext():
+            node.children = [nodes.Text(plain_types(node.astext()))]
+
+
 def formula(translator, node):
     """Write a formula for KaTeX, as it is."""
     block = isinstance(node, nodes.math_block)
@@ -102,4 +109,5 @@ def setup(app):
     """Connect to Sphinx, after napoleon."""
     app.add_html_math_renderer("katex", (formula, None), (formula, None))
     app.connect("autodoc-process-signature", plain_signature)
+    app.connect("doctree-read", aliases_as_words)
     app.connect("autodoc-process-docstring", types_as_words, priority=900)

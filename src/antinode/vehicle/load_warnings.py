@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Numbers
 
 from .forces import FinLoads, Hydrodynamics
 from .hydrodynamics import cavitator, cavity, fins, planing
@@ -38,7 +38,7 @@ class CheckedRange(NamedTuple):
 
     range: Range
     value: Array
-    touched: npt.NDArray[np.bool_]
+    touched: Numbers
 
 
 @dataclass(frozen=True)
