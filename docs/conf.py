@@ -6,7 +6,6 @@ scripts are off a formula stands as it was written.
 """
 
 import re
-import warnings
 from html import escape
 
 from docutils import nodes
@@ -107,8 +106,7 @@ def formula(translator, node):
 
 
 def setup(app):
-    """Connect to Sphinx, after napoleon, which asks for options in a way that Sphinx lays aside."""
-    warnings.filterwarnings("ignore", message="The mapping interface for autodoc options")
+    """Connect to Sphinx, after napoleon."""
     app.add_html_math_renderer("katex", (formula, None), (formula, None))
     app.connect("autodoc-process-signature", plain_signature)
     app.connect("doctree-read", aliases_as_words)
