@@ -75,6 +75,13 @@ def measure(browser, address):
         yield f"| {label} | " + " | ".join(f"{v:.0f}" for v in medians(rows)) + " |"
     yield "| **all sliders** | " + " | ".join(f"**{v:.0f}**" for v in medians(everything)) + " |"
     yield ""
+    tab.open(address + '?panel="response"')
+    moves(tab, "thrust", 2)
+    times = [row["response"] for row in moves(tab, "thrust", MOVES) if "response" in row]
+    yield "| the response panel chosen | curve and peaks |"
+    yield "|---|---|"
+    yield f"| thrust | {statistics.median(times):.0f} |"
+    yield ""
     others = [Tab(browser, address) for _ in range(SESSIONS - 1)]
     rows = moves(tab, "thrust", MOVES)
     idle = medians(rows)

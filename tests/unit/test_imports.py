@@ -44,7 +44,7 @@ ROOMS = {
     "report": ("ground", "riccati", "inputs", "beam", "modes", "vehicle", "show", "study"),
     "app": (
         *("ground", "riccati", "inputs", "beam", "modes", "vehicle", "stability"),
-        *("show", "examples"),
+        *("response", "show", "examples"),
     ),
     "cli": ("ground", "riccati", "inputs", "beam", "modes", "vehicle", "show", "examples"),
 }

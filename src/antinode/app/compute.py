@@ -138,6 +138,12 @@ _kept_results: OrderedDict[Any, Any] = OrderedDict()
 _lock = threading.Lock()
 
 
+def is_kept(key: Any) -> bool:
+    """Tell whether a result is there without any work."""
+    with _lock:
+        return key in _kept_results
+
+
 def kept(key: Any, compute: Callable[[], Result]) -> Result:
     """Return a result that was computed before, or compute it now."""
     with _lock:

@@ -27,6 +27,7 @@ from .panels.forces import forces_data
 from .panels.frequencies import baseline_of, frequencies_data
 from .panels.modes import modes_data
 from .panels.notes import notes_data
+from .panels.response import response_data
 from .panels.sheet import said
 from .panels.sketch import sketch_data
 from .panels.stability import stability_data
@@ -35,6 +36,7 @@ from .scene3d import body_data
 from .state import File, History, State, Value, fields_of
 
 _workers = ThreadPoolExecutor(max_workers=2, thread_name_prefix="antinode")
+_slow = ThreadPoolExecutor(max_workers=1, thread_name_prefix="antinode-panel")
 _SETTLED = 0.2
 """Time without a change after which the full result is computed [s]."""
 _MOST_KEPT = 12  # snapshots
@@ -43,6 +45,7 @@ PANELS: dict[str, Callable[[Answer], dict[str, Any]]] = {
     "ends": ends_data,
     "stability": stability_data,
     "compare": lambda _: said(""),
+    "response": lambda _: said(""),
 }
 """Panels that take a full result, and are computed while they are looked at."""
 
@@ -85,6 +88,7 @@ class Session:
         self._answered: State | None = None
         self._snapshots: list[Snapshot] = []
         self._task: asyncio.Task[None] | None = None
+        self._changed = asyncio.Event()
         self._curve: Curve | None = None
 
     @property
@@ -174,6 +178,7 @@ class Session:
 
     def _start(self) -> None:
         self._version += 1
+        self._changed.set()
         if self._task is None or self._task.done():
             self._task = asyncio.get_running_loop().create_task(self._work())
 
@@ -207,14 +212,29 @@ class Session:
         return done
 
     async def _panel(self, state: State) -> bool:
-        """Compute what the chosen panel shows, if that takes a full result."""
+        """Compute what the chosen panel shows, if that takes a full result.
+
+        It may take seconds: a change that comes meanwhile does not wait for it.
+        """
         if state.view.panel not in PANELS or self.answer is None or self.answer.full is None:
             return True
         answer, panel = self.answer, state.view.panel
-        try:
-            data = await self.run(lambda: self._panel_data(panel, state, answer))
-        except AntinodeError as error:
-            data = said(str(error))
+
+        def compute() -> dict[str, Any]:
+            try:
+                return self._panel_data(panel, state, answer)
+            except AntinodeError as error:
+                return said(str(error))
+
+        self._changed.clear()
+        work: asyncio.Future[Any] = asyncio.get_running_loop().run_in_executor(_slow, compute)
+        changed: asyncio.Future[Any] = asyncio.ensure_future(self._changed.wait())
+        await asyncio.wait({work, changed}, return_when=asyncio.FIRST_COMPLETED)
+        changed.cancel()
+        if not work.done():
+            work.cancel()
+            return False
+        data = await work
         if state is self.state:
             self._send({panel: data})
         return True
@@ -223,6 +243,8 @@ class Session:
         if panel == "compare":
             now = snapshot("now", state, answer)
             return compare_data(self._snapshots, now, state.view.family)
+        if panel == "response":
+            return response_data(state, answer, full=True)
         return kept((panel, state.key), lambda: PANELS[panel](answer))
 
     async def _show(self, state: State, compute: Callable[[State], Answer]) -> bool:
@@ -267,10 +289,19 @@ class Session:
             data["vehicle"] = vehicle_data(answer.case, view.units)
         else:
             data["beam"] = sketch_data(answer, view.units)
+        if view.panel == "response" and answer.full is None:
+            data["response"] = self._response_now(state, answer)
         item = self.curve_input(state, inputs)
         if item is not None:
             data["curve"] = self._curve_patch(state, item, answer)
         return answer, data, inputs
+
+    @staticmethod
+    def _response_now(state: State, answer: Answer) -> dict[str, Any]:
+        try:
+            return response_data(state, answer, full=False)
+        except AntinodeError as error:
+            return said(str(error))
 
     def curve_input(self, state: State, inputs: tuple[Input, ...]) -> Input | None:
         """Return the input that the curve runs over."""

@@ -29,6 +29,7 @@ from antinode.inputs.toml_writing import plain
 from antinode.inputs.units import Frozen
 from antinode.vehicle.case import Case
 
+from .asked import Asked
 from .display import System
 from .inputs import Problem
 
@@ -41,7 +42,7 @@ _MOST_UNPACKED = 2_000_000
 _TELLING = 12  # characters of a fingerprint in a link
 
 
-Panel = Literal["characteristic", "effects", "ends", "stability", "compare"]
+Panel = Literal["characteristic", "response", "effects", "ends", "stability", "compare"]
 
 
 class View(Frozen):
@@ -55,6 +56,7 @@ class View(Frozen):
     body: int = 1
     curve: str = ""
     panel: Panel = "characteristic"
+    response: Asked = Asked()
     sliders: Annotated[tuple[str, ...], Field(max_length=30)] = ()
     band: tuple[float, float] | None = None
     lines: tuple[float, ...] = ()

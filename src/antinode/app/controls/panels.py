@@ -1,4 +1,4 @@
-"""The card whose content is chosen: function, effects, ends, stability, comparison."""
+"""The card whose content is chosen: function, response, effects, ends, stability, comparison."""
 
 from __future__ import annotations
 
@@ -11,8 +11,11 @@ from antinode.app.elements import Picture
 from antinode.app.parts import SMALL, enlarge_button
 from antinode.app.session import Session
 
+from .response import ResponseFields
+
 TITLES = {
     "characteristic": "Characteristic function",
+    "response": "Response",
     "effects": "What each effect does",
     "ends": "End forces side by side",
     "stability": "Stability",
@@ -47,6 +50,7 @@ class PanelChoice:
                     'dense borderless options-dense aria-label="What this panel shows"'
                 ).classes("an-pick an-wide an-titled").mark("panel")
                 self._build_compare()
+                self._response = ResponseFields(self._session)
                 self._copy = ui.button(icon="content_copy", color=None)
                 self._copy.props('flat dense round size=sm aria-label="Copy this table"')
                 script = "(e) => window.antinode.copyNear(e.currentTarget)"
@@ -85,5 +89,6 @@ class PanelChoice:
         for name, picture in self._pictures.items():
             picture.set_visibility(name == chosen)
         self._compare.set_visibility(chosen == "compare")
+        self._response.button.set_visibility(chosen == "response")
         self._copy.set_visibility(chosen != "characteristic")
         self._list()

@@ -2,9 +2,9 @@
 import { echarts } from "nicegui-echart";
 import { FONT, rounded, seriesColour, theme } from "./theme.js";
 
-const label = (t) => ({ color: t.muted, fontSize: 11, fontFamily: FONT, hideOverlap: true });
+export const label = (t) => ({ color: t.muted, fontSize: 11, fontFamily: FONT, hideOverlap: true });
 
-function axis(t, name, more = {}) {
+export function axis(t, name, more = {}) {
   return {
     type: "value",
     name,
@@ -18,7 +18,7 @@ function axis(t, name, more = {}) {
   };
 }
 
-function xAxis(t, name, more = {}) {
+export function xAxis(t, name, more = {}) {
   return axis(t, name, {
     nameLocation: "middle",
     nameGap: 23,
@@ -28,7 +28,7 @@ function xAxis(t, name, more = {}) {
   });
 }
 
-function tooltip(t, format) {
+export function tooltip(t, format) {
   return {
     trigger: "axis",
     confine: true,
@@ -43,7 +43,7 @@ function tooltip(t, format) {
 }
 
 // A chart that draws all of its options from its last data: `options(data, theme)`.
-function chart(element, options, quick) {
+export function chart(element, options, quick) {
   const instance = echarts.init(element);
   let last = null;
   let signature = "";

@@ -4,11 +4,12 @@ import { body } from "./body.js";
 import { characteristic, curve, forces, modes } from "./charts.js";
 import { frequencies, strip } from "./frequencies.js";
 import { notes } from "./notes.js";
+import { response } from "./response.js";
 import { sheet } from "./sheet.js";
 import { vehicle } from "./vehicle.js";
 
 export const kinds = {
-  ...{ beam, body, characteristic, curve, forces, frequencies, modes, notes, strip, vehicle },
+  ...{ beam, body, characteristic, curve, forces, frequencies, modes, notes, response, strip, vehicle },
   ...{ effects: sheet, ends: sheet, stability: sheet, compare: sheet },
 };
 
