@@ -11,6 +11,9 @@ import numpy as np
 import pytest
 
 import antinode as an
+from antinode.riccati import readable
+from antinode.riccati.damped.chain import Damped
+from antinode.riccati.damped.roots import Finder
 
 CLAMPED = an.Ends(left="clamped")
 
@@ -200,6 +203,72 @@ def test_roots_of_the_circle_next_to_its_edge():
         record = result.certificate["record"]
         assert result.certificate["kind"] == "winding"
         assert record["found"] == record["eigenvalues"]
+
+
+def finder_of(beam):
+    """What finds the eigenvalues of the chain of a uniform beam that is held."""
+    damped = Damped(beam.chain("bending"))
+    return Finder(damped, lambda number: readable.find_eigenvalues(damped.base, number), 0, 0)
+
+
+@pytest.mark.parametrize("c", [2.0, 30.0])
+def test_an_eigenvalue_on_the_edge_is_not_proven_and_beside_it_is(c):
+    """A circle through an eigenvalue, and circles a millionth inside and outside of it."""
+    beam = uniform().with_attachments(an.Dashpot(1.0, translational=c))
+    finder = finder_of(beam)
+    finder.find(5)
+    for s in values(solve(beam, 3)):
+        exact = refined(s, right=lambda s: [[s * c, 0], [0, 0]])
+        assert finder._circle(abs(exact))[0].margin <= 0
+        inner, outer = (finder._circle(abs(exact) * (1 + off))[0] for off in (-1e-6, 1e-6))
+        assert min(inner.margin, outer.margin) > 0
+        assert outer.number - inner.number == (2 if s.imag else 1)
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-15, -1e-15, 1e-13, -1e-13, 1e-10, -1e-10])
+def test_an_edge_that_meets_an_eigenvalue_is_moved(off, monkeypatch):
+    """The first circle that is tried passes through an eigenvalue, or so near that nobody knows."""
+    c = 30.0
+    beam = uniform().with_attachments(an.Dashpot(1.0, translational=c))
+    finder, circle = finder_of(beam), Finder._circle
+    found = {round(abs(v.s), 6) for v in finder.find(5).eigenvalues}
+    exact = refined(values(solve(beam, 3))[-1], right=lambda s: [[s * c, 0], [0, 0]])
+    asked = []
+
+    def first_through_it(self, radius):
+        asked.append(radius)
+        return circle(self, abs(exact) * (1 + off) if len(asked) == 1 else radius)
+
+    monkeypatch.setattr(Finder, "_circle", first_through_it)
+    roots = finder_of(beam).find(3)
+    assert roots.proven
+    assert all(abs(v.s) + v.error < roots.circle.radius for v in roots.eigenvalues)
+    assert {round(abs(v.s), 6) for v in roots.eigenvalues} == {
+        size for size in found if size < roots.circle.radius
+    }
+
+
+@pytest.mark.parametrize("stiffness", [1e-3, 3.0, 30.0, 600.0])
+@pytest.mark.parametrize("c", [1e-6, 1e-3, 0.1])
+def test_a_rotation_that_a_small_dashpot_slows_is_real(stiffness, c):
+    """A free beam on a spring at one end, with a dashpot at the other: it creeps as a rigid one."""
+    mass, rate = np.array([[1, 1 / 2], [1 / 2, 1 / 3]]), c * np.ones((2, 2))
+    moved = np.linalg.solve(mass, np.hstack([np.diag([stiffness, 0.0]), rate]))
+    s = np.linalg.eigvals(np.block([[np.zeros((2, 2)), np.eye(2)], [-moved]]))
+    creeping = s[np.abs(s.imag) < 1e-9 * np.abs(s)].real
+    creeping = creeping[np.abs(creeping) > 1e-12]
+    beam = uniform(an.Ends()).with_attachments(
+        an.Spring(0.0, translational=stiffness), an.Dashpot(1.0, translational=c)
+    )
+    for modes in (3, 6):
+        result = solve(beam, modes)
+        assert result.certificate["kind"] == "winding"
+        first = next(m for m in result.modes if m.number)
+        assert first.kind == "overdamped"
+        found = first.eigenvalue_per_s.real
+        off = np.min(np.abs(found - creeping))
+        assert off <= first.error_per_s + 1e-2 * c * abs(found)
+        assert first.error_per_s < 1e-3 * abs(found)
 
 
 @pytest.mark.parametrize("off", [1e-3, 1e-6, 1e-9, 0.0])

@@ -90,7 +90,7 @@ class Samples(NamedTuple):
 
 
 class Path(NamedTuple):
-    """A path from place to place, along straight lines, and what the value does along it."""
+    """A path from place to place, and what the value does along it."""
 
     samples: Bounded
     turn: float
@@ -104,8 +104,10 @@ class Path(NamedTuple):
         return self.margin > 0.0
 
 
-def follow(evaluate: Callable[[Complex], Bounded], places: Complex, most: int = _MOST) -> Path:
-    """Follow a function along straight lines through places; halve them until all are bounded.
+def follow(
+    evaluate: Callable[[Complex], Bounded], places: Complex, most: int = _MOST, radius: float = 0.0
+) -> Path:
+    """Follow a function along lines through places; halve them until all are bounded.
 
     Parameters
     ----------
@@ -115,10 +117,15 @@ def follow(evaluate: Callable[[Complex], Bounded], places: Complex, most: int = 
         Corners of the path, k >= 2.
     most : int
         Samples at which it gives up: the path passes a zero, or a pole.
+    radius : float
+        Of a circle about 0 on which all places lie: its arcs are followed in place of straight
+        lines.
     """
     samples, corner = evaluate(places), np.arange(len(places), dtype=float)
     while True:
         half = np.abs(np.diff(samples.at)) / 2
+        if radius:  # from the ends of an arc to its middle
+            half = half * np.sqrt(2 / (1 + np.sqrt(np.maximum(1 - (half / radius) ** 2, 0.0))))
         size = np.abs(samples.value)
         sides = [samples.some(rows).spread(half) for rows in (slice(-1), slice(1, None))]
         room = np.maximum(size, 1e-300)
@@ -127,7 +134,8 @@ def follow(evaluate: Callable[[Complex], Bounded], places: Complex, most: int = 
         if not len(wide) or len(size) + len(wide) > most:
             break
         middle = (corner[wide] + corner[wide + 1]) / 2
-        new = evaluate((samples.at[wide] + samples.at[wide + 1]) / 2)
+        between = (samples.at[wide] + samples.at[wide + 1]) / 2
+        new = evaluate(between * (radius / np.abs(between)) if radius else between)
         corner = np.concatenate([corner, middle])
         order = np.argsort(corner, kind="stable")
         samples, corner = samples.joined(new, order), corner[order]

@@ -31,7 +31,7 @@ from antinode.riccati.points import Point
 
 from .chain import Damped
 from .ratio import Ratio
-from .roots import Circle, ComplexEigenvalue, ComplexRoots
+from .roots import Circle, ComplexEigenvalue, ComplexRoots, rounding
 from .search import Search
 
 _WEIGHTS = 1.0, 1.25, 2.0, 5.0
@@ -166,6 +166,7 @@ def _enclosed(damped: Damped, s: Complex, start: Complex) -> list[ComplexEigenva
         once = np.abs(np.sum(angle, axis=1) / (2 * np.pi) - 1) < 1e-6
         once &= np.all(np.abs(angle - 2 * np.pi / _RING) < 0.5 * np.pi / _RING, axis=1)
         sure[open_[once]], error[open_[once]] = True, radius * np.abs(s[open_[once]])
+    error = error + rounding(damped.chain, s)
     found = []
     for z, off, good, before in zip(s.tolist(), error.tolist(), sure.tolist(), start, strict=True):
         if before.imag == 0:

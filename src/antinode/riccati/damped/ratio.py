@@ -194,7 +194,7 @@ class Ratio:
         A = np.eye(len(acting.node)) + scaled @ Z
         with np.errstate(all="ignore"):
             inverse = _inverse(A)
-            value = np.linalg.det(A)
+            value, through = np.linalg.det(A), Z @ inverse
         C = np.abs(acting.C) * across
         return RatioSamples(
             s,
@@ -205,7 +205,7 @@ class Ratio:
             np.abs(scaled),
             np.abs(Z),
             C,
-            Z @ inverse,
+            through,
             size,
         )
 

@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from antinode.riccati.arrays import Array, Complex, Numbers
-from antinode.riccati.chain import omega2_scale
+from antinode.riccati.chain import Chain, omega2_scale
 from antinode.riccati.roots import CountingError, Eigenvalue
 from antinode.riccati.winding import Path, follow
 
@@ -32,6 +32,7 @@ _GAPS = 8  # above those wanted in which the circle may stand
 _SHARES = 0.5, 0.35, 0.65  # of a gap where it crosses the axis
 _MOST = 1500  # samples on half a circle
 _WIDTH = 1e-11  # of a circle around an eigenvalue
+_FLOOR = 1e-14  # the same of the scale of s
 _TRIES = (
     (1, 16),
     (1, 64),
@@ -51,7 +52,16 @@ _WIDE = 1e-2  # the same step for curvature
 _PAIRS = 1e-11 * 10 ** np.arange(0, 8.5, 0.5)  # of s: circles about two that all but meet
 _TANGENTS = 1.0, 30.0, 0.1  # of the first radius, in which that is tried
 _APART = 1e-6  # relative distance of eigenvalues that starts alone may tell apart
+_FLAT = 1e-5, 1e-12  # of s, and of its scale: imaginary parts that may be rounding
 _ROUNDS = 6
+_ROUNDING = 4e-15  # of omega^2, in units of EI/(m L^4): ten times what is seen
+_NEAR_EDGE = 1e-9  # step over radius, below which a circle may meet an eigenvalue
+_MOVES = 2  # of a circle whose eigenvalues could not be enclosed
+
+
+def rounding(chain: Chain, s: Numbers) -> Array:
+    """Return how far rounding of omega^2 = -s^2 moves eigenvalues: much where they are small."""
+    return np.asarray(_ROUNDING * omega2_scale(chain) / np.maximum(np.abs(s), 1e-300))
 
 
 @dataclass(frozen=True)
@@ -135,7 +145,9 @@ class ComplexRoots:
     def proven(self) -> bool:
         """Whether as many are enclosed as are proven to be there."""
         enclosed = all(v.proven for v in self.eigenvalues)
-        return self.circle.margin > 0 and enclosed and self.found == self.circle.number
+        inside = all(abs(v.s) + v.error < self.circle.radius for v in self.eigenvalues)
+        whole = self.circle.margin > 0 and self.found == self.circle.number
+        return whole and enclosed and inside
 
 
 class Finder:
@@ -158,17 +170,24 @@ class Finder:
         self.poles: Array = np.zeros(0)
 
     def find(self, wanted: int) -> ComplexRoots:
-        """Find all eigenvalues within a circle, `wanted` that oscillate among them at the least."""
-        below, best = wanted, None
+        """Find all eigenvalues within a circle, `wanted` that oscillate among them at the least.
+
+        One that passes too near to an eigenvalue is moved on to the next gap.
+        """
+        below, enough, moved = wanted, None, 0
         for _ in range(_GAPS):
             circle, path, below = self._certify(below)
             roots = self._within(circle, path)
             oscillating = sum(v.s.imag > 0 for v in roots.eigenvalues)
-            if oscillating >= wanted or (best is not None and not roots.proven):
-                return roots
-            best, below = roots, below + max(1, wanted - oscillating)
-        assert best is not None
-        return best
+            if oscillating >= wanted:
+                enough = enough or roots
+                if roots.proven:
+                    return roots
+            if not roots.proven and (circle.margin <= 0 or moved >= _MOVES):
+                break
+            moved += not roots.proven
+            below += max(1, wanted - oscillating)
+        return enough or roots
 
     # --- how many ---------------------------------------------------------------------------------
 
@@ -197,17 +216,29 @@ class Finder:
         return np.linspace(0, math.pi, 25)
 
     def _circle(self, radius: float) -> tuple[Circle, Path]:
-        """Count the turns of g along half a circle, by chords between points of it."""
+        """Count the turns of g along half a circle."""
         places = radius * np.exp(1j * self._angles)
         places[0], places[-1] = radius, -radius
-        path = follow(self.ratio.samples, places, _MOST)
+        path = follow(self.ratio.samples, places, _MOST, radius)
         turns = path.turn / math.pi
         number = round(turns) if math.isfinite(turns) else 0
         whole = math.isfinite(turns) and abs(turns - number) < 1e-6
         inside = int(np.sum(np.abs(self.poles) < radius**2))
-        margin = path.margin if whole else min(path.margin, -1.0)
+        sure = whole and not self._meets_one(path)
+        margin = path.margin if sure else min(path.margin, -1.0)
         circle = Circle(radius, inside, number, len(path.samples.at), margin, self.at_zero)
         return circle, path
+
+    def _meets_one(self, path: Path) -> bool:
+        """Tell whether a path is so near to an eigenvalue that rounding hides its side."""
+        step = np.abs(np.diff(path.samples.at))
+        k = int(np.argmin(step))
+        if step[k] > _NEAR_EDGE * abs(path.samples.at[k]):
+            return False
+        beside = slice(k, k + 2)
+        return bool(
+            np.any(np.abs(path.samples.value[beside]) < 2 * self._noise(path.samples.at[beside]))
+        )
 
     @property
     def ratio(self) -> Ratio:
@@ -226,7 +257,7 @@ class Finder:
             return circle.number - circle.at_zero - sum(2 if s.imag else 1 for s in known)
 
         def take(found: Complex, step: Array, apart: float) -> None:
-            for s, size in zip(found, step, strict=True):
+            for s, size in zip(self._made_real(found, step), step, strict=True):
                 new = complex(s)
                 near = any(abs(new - z) <= apart * abs(z) for z in known)
                 inside = self._is_inside(new, circle)
@@ -246,13 +277,39 @@ class Finder:
                     take(*search.run(np.array([start]), known), 0.0)
         if known:
             at, step = search.run(np.array(known), [])  # polished, without what was divided out
+            at = self._made_real(at, step)
             for k, (s, size) in enumerate(zip(at, step, strict=True)):
                 if np.isfinite(size) and abs(s - known[k]) < 1e-7 * abs(known[k]):
                     known[k], steps[k] = complex(s), float(size)
         return ComplexRoots(self._enclosed(known, steps), circle)
 
+    def _made_real(self, found: Complex, step: Array) -> Complex:
+        """Return places with those made real that are off the axis by rounding alone.
+
+        Zeros off the axis come in pairs; where a circle about the axis holds one, it is real.
+        """
+        share, least = _FLAT
+        near = np.abs(found.imag) <= share * np.abs(found) + least * self.scale
+        rows = np.flatnonzero(near & (found.imag != 0) & np.isfinite(step))
+        if not len(rows):
+            return found
+        off, places = np.abs(found.imag[rows]), found.real[rows] + 0j
+        radius = np.maximum(_WIDTH * np.abs(places), np.maximum(8 * step[rows], 2 * off))
+        radius = radius + _FLOOR * self.scale
+        alone, used = self._holds_one(places, radius)
+        alone &= off < used
+        for growth, corners in _TRIES:
+            open_ = np.flatnonzero(~alone)
+            if not len(open_):
+                break
+            number, sure = self._counted(places[open_], growth * radius[open_], corners)
+            alone[open_] = sure & (number == 1)
+        found = found.copy()
+        found[rows] = np.where(alone, places, found[rows])
+        return found
+
     def _is_inside(self, s: complex, circle: Circle) -> bool:
-        """Tell whether s is inside the polygon that was followed."""
+        """Tell whether s is inside the circle that was followed."""
         return abs(s) < circle.radius
 
     def _starts(self, circle: Circle, path: Path, known: list[complex], turn: int) -> Complex:
@@ -265,8 +322,9 @@ class Finder:
             have: Numbers = np.array([*full, *[0.0] * circle.at_zero], dtype=complex) / rho
             number = circle.number - len(have)
             sums = _sums(path, all_base, rho, circle.number, number + 1)
-            places = left_over(sums, have) * rho
-            upper = places[places.imag >= -1e-9 * rho]
+            with np.errstate(all="ignore"):  # of a path that meets an eigenvalue
+                places = left_over(sums, have) * rho
+            upper = places[np.isfinite(places) & (places.imag >= -1e-9 * rho)]
             upper = np.where(upper.imag < 0, upper.conjugate(), upper)
             return upper[np.argsort(-np.abs(upper))] * (1 + 1e-6 * turn)
         rng = np.random.default_rng(turn)
@@ -281,8 +339,7 @@ class Finder:
         if not known:
             return []
         s = np.array(known)
-        floor = 1e-14 * self.scale
-        radius = np.maximum(_WIDTH * np.abs(s), 8 * np.array(steps)) + floor
+        radius = np.maximum(_WIDTH * np.abs(s), 8 * np.array(steps)) + _FLOOR * self.scale
         proven, outer = self._holds_one(s, radius)
         members = np.ones(len(s), int)
         everyone = np.concatenate([s, s[s.imag > 0].conj()])
@@ -302,6 +359,7 @@ class Finder:
             inside = np.sum(gap < growth * radius[open_, None], axis=1)
             good = sure & (number == inside) & (number > 0)
             proven[open_[good]], members[open_[good]] = True, number[good]
+        outer = outer + rounding(self.damped.chain, s)
         rows = zip(s.tolist(), outer.tolist(), proven.tolist(), members.tolist(), strict=True)
         found = [ComplexEigenvalue(*row) for row in rows]
         return sorted(found, key=lambda v: (v.s.imag, v.s.real))

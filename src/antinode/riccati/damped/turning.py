@@ -25,7 +25,7 @@ from antinode.riccati.winding import Path
 
 from .chain import Damped
 from .ratio import Ratio, RatioSamples
-from .roots import BaseEigenvalues, Circle, ComplexEigenvalue, Finder
+from .roots import BaseEigenvalues, Circle, ComplexEigenvalue, Finder, rounding
 
 _WEIGHTS = 1.0, 1.5, 3.0, 10.0, 100.0  # times the c of a long uniform beam
 _SIGMA = 1.0, 8.0  # of the square of the radius
@@ -114,6 +114,7 @@ class TurningFinder(Finder):
         s: Complex = np.array(known)
         everyone: Complex = np.concatenate([s, s[s.imag > 0].conj()])
         error, members, sure = rings(self.damped, s, everyone)
+        error = error + rounding(self.damped.chain, s)
         rows = zip(s.tolist(), error.tolist(), sure.tolist(), members.tolist(), strict=True)
         found = [_on_the_axis(ComplexEigenvalue(*row)) for row in rows]
         return sorted(found, key=lambda v: (v.s.imag, v.s.real))
