@@ -293,7 +293,8 @@ class Finder:
         rows = np.flatnonzero(near & (found.imag != 0) & np.isfinite(step))
         if not len(rows):
             return found
-        off, places = np.abs(found.imag[rows]), found.real[rows] + 0j
+        off = np.abs(found.imag[rows])
+        places: Complex = found.real[rows].astype(complex)
         radius = np.maximum(_WIDTH * np.abs(places), np.maximum(8 * step[rows], 2 * off))
         radius = radius + _FLOOR * self.scale
         alone, used = self._holds_one(places, radius)
