@@ -15,9 +15,9 @@ from antinode.riccati.lanes import library
 @pytest.fixture
 def made(monkeypatch, tmp_path):
     """An empty folder for the code; "compiling" copies what this process has loaded."""
-    code, built = library._code(), []
+    code, built = library._code("roots"), []
 
-    def build(target):
+    def build(_part, target):
         built.append(target)
         Path(target).write_bytes(code)
 
@@ -27,8 +27,8 @@ def made(monkeypatch, tmp_path):
 
 
 def test_it_is_made_once(made, tmp_path):
-    code = library._code()
-    assert library._code() == code
+    code = library._code("roots")
+    assert library._code("roots") == code
     assert len(made) == 1
     assert [path.suffix for path in sorted(tmp_path.iterdir())] == [".bin", ".lock"]
 
@@ -37,12 +37,20 @@ def test_it_is_made_once(made, tmp_path):
     "spoil", [lambda b: b[:-9], lambda b: b"", lambda b: b[:99] + b"x" + b[99:]]
 )
 def test_a_damaged_file_is_made_anew(made, tmp_path, spoil):
-    code = library._code()
+    code = library._code("roots")
     (file,) = tmp_path.glob("*.bin")
     file.write_bytes(spoil(file.read_bytes()))
-    assert library._code() == code
+    assert library._code("roots") == code
     assert len(made) == 2
     assert library._read(file) == code
+
+
+def test_every_part_has_a_file_of_its_own(made, tmp_path):
+    library._code("roots")
+    library._code("shapes")
+    names = [path.name.split("-")[0] for path in sorted(tmp_path.glob("*.bin"))]
+    assert names == ["roots", "shapes"]
+    assert len(made) == 2
 
 
 def test_other_sources_and_processors_have_files_of_their_own(monkeypatch):
@@ -56,7 +64,7 @@ def test_a_folder_that_is_not_writable_is_passed_over(made, monkeypatch, tmp_pat
     wrong, right = tmp_path / "file", tmp_path / "folder"
     wrong.write_text("")
     monkeypatch.setattr(library, "_folders", lambda: iter((wrong / "sub", right)))
-    library._code()
+    library._code("roots")
     assert [path.suffix for path in sorted(right.iterdir())] == [".bin", ".lock"]
     assert len(made) == 1
 
@@ -65,12 +73,12 @@ def test_a_folder_that_the_user_chose_must_be_writable(made, monkeypatch, tmp_pa
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("ANTINODE_CACHE_DIR", str(tmp_path / "file" / "sub"))
     with pytest.raises(library.LibraryError, match="ANTINODE_CACHE_DIR"):
-        library._code()
+        library._code("roots")
 
 
 def test_a_compiler_that_fails_is_told_in_a_sentence(monkeypatch, tmp_path):
     monkeypatch.setenv("ANTINODE_CACHE_DIR", str(tmp_path))
-    monkeypatch.setattr(library, "_loaded", [])
+    monkeypatch.setattr(library, "_loaded", {})
     monkeypatch.setattr(library, "__package__", "antinode.no_such_room")
     with pytest.raises(an.ComputationError, match="could not be compiled") as error:
         backends.choose("numba")
@@ -81,16 +89,16 @@ def test_a_compiler_that_fails_is_told_in_a_sentence(monkeypatch, tmp_path):
 
 def test_what_takes_long_is_told(made, monkeypatch, capfd):
     build = library._build
-    monkeypatch.setattr(library, "_build", lambda target: (time.sleep(0.2), build(target)))
+    monkeypatch.setattr(library, "_build", lambda *asked: (time.sleep(0.2), build(*asked)))
     monkeypatch.setattr(library, "_PATIENCE", 0.0)
-    library._code()
+    library._code("roots")
     told = capfd.readouterr().err.splitlines()
     assert "compiling" in told[0]
     assert "compiled the batch kernel in" in told[-1]
 
 
 def test_what_is_quick_is_not_told(made, capfd):
-    library._code()
+    library._code("roots")
     assert capfd.readouterr().err == ""
 
 
@@ -99,11 +107,11 @@ import sys, time
 from pathlib import Path
 from antinode.riccati.lanes import library
 
-code = library._code()
+code = library._code("roots")
 folder = Path(sys.argv[1])
 library._folders = lambda: iter((folder,))
 
-def build(target):
+def build(_part, target):
     with (folder / "built").open("a") as log:
         log.write("once ")
     time.sleep(0.5)
@@ -112,7 +120,7 @@ def build(target):
 library._build = build
 while not (folder / "go").exists():
     time.sleep(0.01)
-assert library._code() == code
+assert library._code("roots") == code
 """
 
 

@@ -1,10 +1,11 @@
-"""Compiles the library: one file of machine code, made by numba and LLVM in a process of its own.
+"""Compiles the library: files of machine code, made by numba and LLVM in a process of their own.
 
-    python -m antinode.riccati.lanes.build FILE
+    python -m antinode.riccati.lanes.build PART FILE
 
-Numba translates each marked function once; all are put into one LLVM module and optimised
-together. What it has besides - a module for each function, with copies of all that it calls, each
-optimised and translated for itself, and wrappers for Python - is left away.
+Numba translates each marked function that a part needs once, whatever constants it is called with;
+all are put into one LLVM module and optimised together. What it has besides - a module for each
+function, with copies of all that it calls, each optimised and translated for itself, and wrappers
+for Python - is left away.
 """
 
 # mypy: ignore-errors
@@ -20,23 +21,23 @@ from typing import Any
 import numpy as np
 
 from . import compiling
-from .library import HELPERS, PREFIX
+from .library import HELPERS, PREFIX, Part
 from .structures import CONTIGUOUS, DATA, FLAGS, NOT_CALLED, SHAPE, Kept
 
 _WORD = 8
 
 
-def machine_code() -> bytes:
-    """Return the object file of all entries, each under its name after `PREFIX`."""
+def machine_code(part: Part) -> bytes:
+    """Return the object file of the entries of a part, each under its name after `PREFIX`."""
     import numba
 
     _check_arrays()
     compiling.use_numba(numba)
-    parts = _gather_modules()
+    modules = _gather_modules()
     from .entries import ENTRIES
 
-    symbols = {_compile_entry(*ENTRIES[name]): PREFIX + name for name in ENTRIES}
-    return _optimised(parts, symbols)
+    symbols = {_compile_entry(*entry): PREFIX + name for name, entry in ENTRIES[part].items()}
+    return _optimised(modules, symbols)
 
 
 def _check_arrays() -> None:
@@ -62,7 +63,7 @@ def _gather_modules() -> list[Any]:
     from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
     from numba.core.registry import cpu_target
 
-    parts: list[Any] = []
+    modules: list[Any] = []
 
     class Gathered(JITCodeLibrary):
         def add_llvm_module(self, module):
@@ -70,7 +71,7 @@ def _gather_modules() -> list[Any]:
 
         def finalize(self):
             self._finalized = True
-            parts.append(self._final_module)
+            modules.append(self._final_module)
 
         def get_pointer_to_function(self, _name):
             self._ensure_finalized()
@@ -83,7 +84,7 @@ def _gather_modules() -> list[Any]:
             pass
 
     cpu_target.target_context._internal_codegen = Codegen("antinode")
-    return parts
+    return modules
 
 
 def _compile_entry(function: Any, arguments: tuple[Any, ...]) -> str:
@@ -251,15 +252,15 @@ def _give() -> Any:
     return intrinsic(give)
 
 
-def _optimised(parts: list[Any], symbols: dict[str, str]) -> bytes:
+def _optimised(modules: list[Any], symbols: dict[str, str]) -> bytes:
     """Link all modules into one, optimise it as numba would, and return its object code."""
     import llvmlite.binding as llvm
     from numba.core.registry import cpu_target
 
     codegen = cpu_target.target_context._internal_codegen
     whole = llvm.parse_assembly(str(codegen._create_empty_module("antinode")))
-    for part in parts:
-        whole.link_in(part)
+    for module in modules:
+        whole.link_in(module)
     for function in whole.functions:
         if function.name in symbols:
             function.name = symbols[function.name]
@@ -287,11 +288,11 @@ def _optimised(parts: list[Any], symbols: dict[str, str]) -> bytes:
     return bytes(codegen._tm.emit_object(whole))
 
 
-def main(target: str) -> None:
-    """Write the library."""
+def main(part: Part, target: str) -> None:
+    """Write a part of the library."""
     gc.disable()
-    Path(target).write_bytes(machine_code())
+    Path(target).write_bytes(machine_code(part))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(*sys.argv[1:3])

@@ -112,7 +112,7 @@ def solve_chains(chains: Chains, below: int, number: int, width: float) -> Chain
     task, search, row = Task(below, width, True), scratch.search(number), 0
     table = np.empty((ROWS, n + n // 2 + 8))
     while row < len(chains):
-        row, columns, _ = library().call(
+        row, columns, _ = library("roots").call(
             "solve_rows",
             (*given, ends),
             row,
@@ -232,7 +232,7 @@ def certify_guesses(chains: Chains, guess: Array, below: int, width: float) -> C
     own = kept.structure
     own.length[:], own.mass[:] = chains.length[0], chains.mass[0]
     own.stiffness[:] = chains.stiffness[0]
-    library().call(
+    library("roots").call(
         "certify_rows",
         *(np.ascontiguousarray(chains.axial_force), _ends(chains)),
         *(np.ascontiguousarray(guess), kept),
@@ -273,7 +273,7 @@ def solve_beam(
         own.force[:] = beam.axial_force
         if beam.acceleration:
             own.mass_left[:] = beam.mass_left
-        reason, size, evaluations = library().call(
+        reason, size, evaluations = library("roots").call(
             "solve_levels", kept, interior, nodes, below, refinement, tolerance, width
         )
         if reason == TABLE_TOO_SMALL:

@@ -42,7 +42,23 @@ def _mark(function: Any, fastmath: set[str]) -> Any:
     if not _numba:
         return function
     options = {**_OPTIONS, "pipeline_class": few_passes()}
-    return _numba[0].njit(**options, fastmath=fastmath)(function)
+    made = _numba[0].njit(**options, fastmath=fastmath)(function)
+    _compile_once(made)
+    return made
+
+
+def _compile_once(made: Any) -> None:
+    """Let a function be compiled for types alone: numba would do it for every constant anew.
+
+    LLVM carries constants into functions by itself.
+    """
+    unliteral, of_types = _numba[0].types.unliteral, made.get_call_template
+
+    def get_call_template(given, named):
+        named = {name: unliteral(typ) for name, typ in named.items()}
+        return of_types(tuple(map(unliteral, given)), named)
+
+    made.get_call_template = get_call_template
 
 
 @cache

@@ -41,38 +41,50 @@ _scaled = new_scaled(1)
 _found = ChainRoots.empty(1, 1)
 _driven = Driven(_i2, _f2, _i1, _f2, _f2, _f2, _f3, _f1, 1.0)
 
-ENTRIES: dict[str, tuple[Any, tuple[Any, ...]]] = {
-    "scale": (rows.scale, (_chain, _f1)),
-    "prepare": (laws.prepare, (_chain, _f, _f2)),
-    "evaluate": (search.evaluate, (_chain, _f1, _f2, _lanes, _i1, _f1)),
-    "find_roots": (
-        following.find_all,
-        (_chain, _task, _b, _f, new_roots(1), _f2, _lanes, _search),
-    ),
-    "solve_rows": (
-        rows.solve_rows,
-        (10 * (_f2,), _i, _kept_chain, _task, _warmth, _f2, _lanes, _search, _found),
-    ),
-    "certify_rows": (
-        rows.certify_rows,
-        (_f2, _f2, _f2, _kept_chain, _f1, _task, _f1, _f2, _lanes, _search, _found),
-    ),
-    "solve_levels": (
-        levels.solve_levels,
-        (
-            *(Kept(new_levels(0, 1, 1, _f2, 1)), _interior, Nodes(_i1, NO_POINTS, NO_POINTS)),
-            *(_i, _i, _f, _f),
+Entries = dict[str, tuple[Any, tuple[Any, ...]]]
+
+ENTRIES: dict[str, Entries] = {
+    "roots": {
+        "scale": (rows.scale, (_chain, _f1)),
+        "prepare": (laws.prepare, (_chain, _f, _f2)),
+        "evaluate": (search.evaluate, (_chain, _f1, _f2, _lanes, _i1, _f1)),
+        "find_roots": (
+            following.find_all,
+            (_chain, _task, _b, _f, new_roots(1), _f2, _lanes, _search),
         ),
-    ),
-    "scaled_chain": (shapes.scaled_chain, (_f1, _f1, _f1, _f2, _f1, _f1, _f, _scaled)),
-    "transfers": (shapes.transfers, (_f1, _scaled, _f1, _f2, _f3)),
-    "sweeps": (shapes.sweeps, (_f3, _i1, _f3, _f3, _f2, _f3, _f3, _f3, _f3)),
-    "meet": (shapes.meet, (_f3, _f3, _f2, _i1, _f2)),
-    "carry": (shapes.carry, (_f3, _f3, _f3, _f3, _i1, _f2, _f2, _f3)),
-    "squares": (
-        shapes.squares,
-        (_f1, _f1, _scaled, _f1, _f2, _f3, _f1, _f1, _f2, _f3),
-    ),
-    "drive": (sweep.drive, (_driven, Ends(_f2, _f2, True, True), _f2, new_room(1, 1, 1), _f5, _f5)),
-    "repeat": (search.repeat, (_chain, _f2, _lanes, _i, _i)),
+        "solve_rows": (
+            rows.solve_rows,
+            (10 * (_f2,), _i, _kept_chain, _task, _warmth, _f2, _lanes, _search, _found),
+        ),
+        "certify_rows": (
+            rows.certify_rows,
+            (_f2, _f2, _f2, _kept_chain, _f1, _task, _f1, _f2, _lanes, _search, _found),
+        ),
+        "solve_levels": (
+            levels.solve_levels,
+            (
+                *(Kept(new_levels(0, 1, 1, _f2, 1)), _interior, Nodes(_i1, NO_POINTS, NO_POINTS)),
+                *(_i, _i, _f, _f),
+            ),
+        ),
+        "repeat": (search.repeat, (_chain, _f2, _lanes, _i, _i)),
+    },
+    "shapes": {
+        "scaled_chain": (shapes.scaled_chain, (_f1, _f1, _f1, _f2, _f1, _f1, _f, _scaled)),
+        "transfers": (shapes.transfers, (_f1, _scaled, _f1, _f2, _f3)),
+        "sweeps": (shapes.sweeps, (_f3, _i1, _f3, _f3, _f2, _f3, _f3, _f3, _f3)),
+        "meet": (shapes.meet, (_f3, _f3, _f2, _i1, _f2)),
+        "carry": (shapes.carry, (_f3, _f3, _f3, _f3, _i1, _f2, _f2, _f3)),
+        "squares": (
+            shapes.squares,
+            (_f1, _f1, _scaled, _f1, _f2, _f3, _f1, _f1, _f2, _f3),
+        ),
+    },
+    "forced": {
+        "drive": (
+            sweep.drive,
+            (_driven, Ends(_f2, _f2, True, True), _f2, new_room(1, 1, 1), _f5, _f5),
+        ),
+    },
 }
+"""By the part of the library that they are compiled into."""

@@ -2,7 +2,8 @@
 
 The code is the same whoever made it: it is always made by a process of its own (`build`), kept
 under a name that tells its sources, the compiler's versions and the processor, and loaded from
-there. Loading takes some tens of milliseconds.
+there. Loading takes some tens of milliseconds. It comes in parts, each made when it is first asked
+for: who wants frequencies does not wait for responses to be compiled.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from contextlib import contextmanager, suppress
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from .structures import HEAD, NOT_CALLED, Results, layout_of, reader_of
 
@@ -33,6 +34,9 @@ HELPERS = {"exp": "exp", "expm1": "expm1", "log": "log", "memset": "memset", "me
 HELPERS |= {"sqrt": "sqrt", "numba_frexp": "frexp", "numba_ldexp": "ldexp"}
 """What the machine code may call from outside, and the name in the C library."""
 
+Part = Literal["roots", "shapes", "forced"]
+"""Of the library, as in `riccati.lanes.entries`."""
+
 Entry = tuple[Any, struct.Struct, Callable[[tuple[Any, ...]], tuple[Any, ...]]]
 """A function; how its words are written; how they are had from its arguments."""
 
@@ -42,7 +46,7 @@ _NOT_COMPILED = {"__init__.py", "calls.py", "scratch.py", "single.py", "states.p
 _CHECK = 32  # bytes of a digest, before the code
 _PATIENCE = 2.0  # s
 _loading = threading.Lock()
-_loaded: list[Library] = []
+_loaded: dict[Part, Library] = {}
 
 
 class LibraryError(RuntimeError):
@@ -50,7 +54,7 @@ class LibraryError(RuntimeError):
 
 
 class Library:
-    """Compiled functions by name, as in `riccati.lanes.entries`.
+    """Compiled functions by name: a part of `riccati.lanes.entries`.
 
     Parameters
     ----------
@@ -102,19 +106,19 @@ class Library:
         return self._entries[name]
 
 
-def library() -> Library:
-    """Return the compiled functions: loaded once a process, and made before if they are missing.
+def library(part: Part = "roots") -> Library:
+    """Return compiled functions: loaded once a process, and made before if they are missing.
 
     Raises
     ------
     LibraryError
         If they cannot be made, or loaded.
     """
-    if not _loaded:
+    if part not in _loaded:
         with _loading:
-            if not _loaded:
-                _loaded.append(Library(_code()))
-    return _loaded[0]
+            if part not in _loaded:
+                _loaded[part] = Library(_code(part))
+    return _loaded[part]
 
 
 def _address_in_c(name: str) -> int:
@@ -137,9 +141,9 @@ def _c_libraries() -> list[Any]:
     return [whole, ctypes.CDLL(find_library("m"))]
 
 
-def _code() -> bytes:
-    """Return the machine code: from a folder that has it, or newly made."""
-    name = f"kernel-{_key()}.bin"
+def _code(part: Part) -> bytes:
+    """Return the machine code of a part: from a folder that has it, or newly made."""
+    name = f"{part}-{_key()}.bin"
     for folder in _folders():
         code = _read(folder / name)
         if code:
@@ -148,7 +152,7 @@ def _code() -> bytes:
         try:
             folder.mkdir(mode=0o700, parents=True, exist_ok=True)
             with _locked(folder / f"{name}.lock"):
-                return _read(folder / name) or _made(folder / name)
+                return _read(folder / name) or _made(part, folder / name)
         except OSError:
             continue  # not writable
     raise LibraryError(
@@ -240,13 +244,13 @@ def _lock(handle: int) -> None:
         fcntl.flock(handle, fcntl.LOCK_EX)
 
 
-def _made(path: Path) -> bytes:
+def _made(part: Part, path: Path) -> bytes:
     """Make the code in a process of its own, keep it, and tell of it if that takes long."""
     handle, name = tempfile.mkstemp(prefix=path.stem, dir=path.parent)
     os.close(handle)
     try:
         with _notice():
-            _build(name)
+            _build(part, name)
         code = Path(name).read_bytes()
         Path(name).write_bytes(hashlib.sha256(code).digest() + code)
         os.replace(name, path)
@@ -255,13 +259,13 @@ def _made(path: Path) -> bytes:
     return code
 
 
-def _build(target: str) -> None:
+def _build(part: Part, target: str) -> None:
     """Run `build` in a fresh process that finds the same packages, and no settings of numba."""
     command = f"import sys; sys.path[:] = {sys.path!r}; from {__package__} import build; "
     kept = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
     kept["PYTHONHASHSEED"] = "0"  # the order of sets is that of the code
     done = subprocess.run(
-        [sys.executable, "-c", f"{command}build.main({target!r})"],
+        [sys.executable, "-c", f"{command}build.main({part!r}, {target!r})"],
         check=False,
         stdin=subprocess.DEVNULL,
         capture_output=True,

@@ -79,7 +79,7 @@ class SingleChain:
         if chain.law.has_axial_force:
             own.force[:] = chain.axial_force
         units = np.empty(4)
-        library().call("scale", own, units)
+        library("roots").call("scale", own, units)
         self.unit, L, m0, stiffness = units.tolist()
         own.following[:] = np.array(chain.following) * (L * L / stiffness)
         self.follows = chain.follows
@@ -95,7 +95,7 @@ class SingleChain:
         largest = float(np.max(np.abs(scaled)))
         while True:
             table = scratch.table(columns)
-            pieces = library().call("prepare", self.chain, largest, table)[0]
+            pieces = library("roots").call("prepare", self.chain, largest, table)[0]
             if pieces <= table.shape[1]:
                 break
             columns = pieces
@@ -103,7 +103,7 @@ class SingleChain:
             worst = float(np.max(np.abs(omega2)))
             raise FloatingPointError(f"omega^2 = {worst:g} is out of reach for this chain")
         count, value = np.empty(len(scaled), np.int64), np.empty(len(scaled))
-        library().call("evaluate", self.chain, scaled, table, scratch.lanes, count, value)
+        library("roots").call("evaluate", self.chain, scaled, table, scratch.lanes, count, value)
         return Evaluation(count * 0 - 1 if self.follows else count, self.sign * value)
 
     def roots(self, below: int, number: int, width: float) -> Found:
@@ -117,7 +117,7 @@ class SingleChain:
         task, found, search = Task(below, width, True), new_roots(number), scratch.search(number)
         columns = len(self.chain.length) + 8
         while True:
-            reason, total, _ = library().call(
+            reason, total, _ = library("roots").call(
                 "find_roots",
                 *(self.chain, task, False, 0.0, found),
                 *(scratch.table(columns), scratch.lanes, search),

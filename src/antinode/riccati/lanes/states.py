@@ -64,7 +64,7 @@ class _LaneChain:
         self.length, mass, stiffness, self.force = (np.array(v, order="C") for v in arrays)
         self.units = state_units(chain, omega2)[lane]
         self.columns = new_scaled(n)
-        library().call(
+        library("shapes").call(
             "scaled_chain",
             *(mass, stiffness, self.force, more_columns(chain), omega2[lane], self.scale),
             *(chain.reference[0], self.columns),
@@ -73,7 +73,7 @@ class _LaneChain:
 
     def transfers(self) -> Array:
         U = np.empty((len(self.length), 10, LANES))
-        library().call("transfers", self.length, self.columns, self.scale, self.scratch, U)
+        library("shapes").call("transfers", self.length, self.columns, self.scale, self.scratch, U)
         return U
 
 
@@ -85,15 +85,15 @@ def _states(fine: Chain, omega2: Array, adjoint: bool) -> Array:
     def sweeps(adjoint: bool) -> tuple[Array, Array]:
         frames, backs = np.empty((2, n + 1, 8, LANES)), np.empty((2, n + 1, 3, LANES))
         ends = _end_frames(fine, own.units, adjoint)
-        library().call("sweeps", U, *points, ends, own.scratch, *frames, *backs)
+        library("shapes").call("sweeps", U, *points, ends, own.scratch, *frames, *backs)
         return frames, backs
 
     frames, backs = sweeps(adjoint)
     across = sweeps(not adjoint)[0][0] if fine.following[0] else frames[0]
     node, state = np.zeros(LANES, np.int64), np.empty((4, LANES))
-    library().call("meet", across, frames[1], own.scratch, node, state)
+    library("shapes").call("meet", across, frames[1], own.scratch, node, state)
     z = np.empty((n + 1, number, 4))
-    library().call("carry", *frames, *backs, node, state, own.units, z)
+    library("shapes").call("carry", *frames, *backs, node, state, own.units, z)
     return z
 
 
@@ -129,7 +129,7 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies
         own = _LaneChain(chain, omega2[i : i + LANES])
         these = np.array(states[:, i : i + LANES], order="C")
         total = np.zeros((len(Squares._fields), *these[:-1, :, 0].shape))
-        library().call(
+        library("shapes").call(
             "squares",
             *(own.length, own.force, own.columns, own.scale, own.units),
             *(these, share, weight, own.scratch, total),

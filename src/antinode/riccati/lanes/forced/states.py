@@ -63,7 +63,9 @@ def forced_states(
     driven, ends = _driven(chain, columns, phase, loads, wanted), _ends(chain, size)
     left, right = np.empty((2, len(wanted), k, SIZE, cases, 2))
     room = new_room(cases, bases, 2 * len(wanted))
-    if library().call("drive", driven, ends, _lanes(chain, lanes, size), room, left, right)[0]:
+    if library("forced").call("drive", driven, ends, _lanes(chain, lanes, size), room, left, right)[
+        0
+    ]:
         raise FloatingPointError("the chain takes more bases than were expected")
     return Sides(*(side.view(complex)[..., 0] for side in (left, right)))
 
