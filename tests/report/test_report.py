@@ -17,6 +17,7 @@ from antinode.report.html import to_html
 from antinode.report.inputs import beam_inputs, case_inputs
 from antinode.report.numbers import apart, number, percent, small
 from antinode.report.provenance import hash_of
+from antinode.response.solve import solve_response
 from antinode.study.sensitivity.influence import beam_influences, case_influences
 from cli_run import run
 
@@ -273,3 +274,38 @@ def test_a_study_says_in_brief_what_is_past_buckling(folder, tmp_path):
     document, _ = make_report(path)
     brief = " ".join("".join(r.text for r in line) for line in document.brief)
     assert "0 failed, 1 past buckling" in brief
+
+
+@pytest.fixture(scope="module")
+def flight(tmp_path_factory):
+    where = tmp_path_factory.mktemp("flight")
+    write_example("response", where)
+    return where
+
+
+def test_a_response_has_a_chapter(flight):
+    """What the chapter says is what the solver says; equipment that fails is marked."""
+    own = flight / "response.toml"
+    document, told = make_report(flight / "beam.toml", responses=(own,))
+    titles = [s.title for s in document.sections]
+    chapter = next(s for s in document.sections if s.title.startswith("Response: "))
+    assert titles.index(chapter.title) == titles.index("Sensitivities") - 1
+    outputs, equipment = (b for b in chapter.blocks if isinstance(b, Table))
+    result = solve_response(own)
+    rms = result.statistics[0].rms / 9.80665
+    assert float(texts(outputs)[0][1]) == pytest.approx(rms, rel=1e-4)
+    for row, verdict in zip(texts(equipment), result.verdicts, strict=True):
+        assert row[0] == verdict.name
+        assert float(row[2].replace("\u2212", "-")) == pytest.approx(verdict.margin_db, abs=0.006)
+        assert row[3] == "yes"
+    assert list(equipment.marked) == [False] * len(result.verdicts)
+    assert set(result.warnings) <= set(told)
+    page = to_html(document)
+    assert "Not in these numbers" in page
+    assert page.count("<svg") == 1 + to_html(make_report(flight / "beam.toml")[0]).count("<svg")
+
+
+def test_a_response_of_another_file_is_refused(flight, folder):
+    own = flight / "response.toml"
+    with pytest.raises(InputError, match=r"it is a response of 'beam\.toml', not of"):
+        make_report(folder / "tower" / "beam.toml", responses=(own,))

@@ -41,7 +41,10 @@ ROOMS = {
     ),
     "exchange": ("ground", "riccati", "inputs", "beam", "modes", "response", "show"),
     "paper": ("ground", "riccati", "inputs", "beam", "modes", "vehicle", "show"),
-    "report": ("ground", "riccati", "inputs", "beam", "modes", "vehicle", "show", "study"),
+    "report": (
+        *("ground", "riccati", "inputs", "beam", "modes", "vehicle", "response", "show"),
+        "study",
+    ),
     "app": (
         *("ground", "riccati", "inputs", "beam", "modes", "vehicle", "stability"),
         *("response", "show", "examples"),

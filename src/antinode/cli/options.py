@@ -151,6 +151,14 @@ ReportTolerance = Annotated[
         "--tolerance",
     ),
 ]
+ReportResponses = Annotated[
+    tuple[Path, ...],
+    option(
+        INPUT,
+        "A response file of this case or beam: a chapter for it. May be repeated.",
+        "--response",
+    ),
+]
 FromFormat = Annotated[
     str,
     option(

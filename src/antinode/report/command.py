@@ -22,6 +22,7 @@ from .formats import ENDINGS, check_libraries
 from .html import to_html
 from .pdf import to_pdf
 from .provenance import source_of
+from .response_section import with_responses
 from .vehicle_report import vehicle_report, vehicle_warnings
 
 
@@ -32,13 +33,14 @@ def run_report(
     *,
     modes: int | None = None,
     tolerance: float | None = None,
+    responses: tuple[Path, ...] = (),
     json: bool = False,
 ) -> None:
     """Write the report on a case, a beam or a study, and say so."""
     started = time.monotonic()
     check_output(output, ENDINGS)
     check_libraries(output)
-    document, told = make_report(file, assignments, modes, tolerance)
+    document, told = make_report(file, assignments, modes, tolerance, responses)
     write_report(document, output)
     if json:
         data = {
@@ -61,6 +63,7 @@ def report_file(
     *,
     modes: int | None = None,
     tolerance: float | None = None,
+    responses: Iterable[str | Path] = (),
 ) -> list[str]:
     """Write the report on the case, beam or study of a file, as `antinode report` does.
 
@@ -73,6 +76,8 @@ def report_file(
         Overrides such as ``"condition.speed=100m/s"``.
     modes, tolerance
         By default the file's.
+    responses : iterable of str or Path
+        Response files of that case or beam: a chapter for each.
 
     Returns
     -------
@@ -86,7 +91,8 @@ def report_file(
     """
     check_output(Path(output), ENDINGS)
     check_libraries(Path(output))
-    document, told = make_report(Path(file), tuple(assignments), modes, tolerance)
+    more = tuple(map(Path, responses))
+    document, told = make_report(Path(file), tuple(assignments), modes, tolerance, more)
     write_report(document, Path(output))
     return told
 
@@ -96,6 +102,7 @@ def make_report(
     assignments: tuple[str, ...] = (),
     modes: int | None = None,
     tolerance: float | None = None,
+    responses: tuple[Path, ...] = (),
 ) -> tuple[Document, list[str]]:
     """Return the report on whatever a file holds, and its warnings."""
     tables = {"beam": {}} if file.suffix.lower() in TABLES else read_toml(file)
@@ -106,18 +113,24 @@ def make_report(
         )
     overrides = "".join(f" --set {shlex.quote(each)}" for each in assignments)
     if "case" in tables:
+        if responses:
+            raise InputError(
+                f"{file}: a study has no chapter on responses, only a case or a beam; name its "
+                "case in place of it, or leave --response out"
+            )
         return _of_study(file, assignments, modes, tolerance, f"antinode sweep {file.name}")
     if "vehicle" in tables:
         case = load_case(file, assignments)
         result = _solved(case, modes, tolerance)
         command = f"antinode modes {file.name}{overrides}"
         document = vehicle_report(case, result, source_of(file, assignments, case), command)
-        return document, vehicle_warnings(case, result)
+        told = vehicle_warnings(case, result)
+        return with_responses(document, told, file, case.beam(), responses)
     beam = load_beam(file, assignments)
     result = _solved(beam, modes, tolerance)
     command = f"antinode beam {file.name}{overrides}"
     document = beam_report(beam, result, source_of(file, assignments, beam), command)
-    return document, list(result.warnings)
+    return with_responses(document, list(result.warnings), file, beam.beam(), responses)
 
 
 def _of_study(

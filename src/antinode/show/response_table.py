@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -23,41 +23,77 @@ if TYPE_CHECKING:
     from antinode.response.transient import TransientResult
 
 _MOST_PEAKS = 4
+Row = tuple[str, ...]
+
+
+class Rows(NamedTuple):
+    """A table as texts.
+
+    Attributes
+    ----------
+    heads : tuple of str
+    rows : sequence of tuple of str
+    left : tuple of int
+        Columns of words.
+    narrow : sequence of tuple of int
+        Columns that are kept where there is less and less room.
+    """
+
+    heads: Row
+    rows: Sequence[Row]
+    left: tuple[int, ...]
+    narrow: Sequence[tuple[int, ...]]
 
 
 def show_response(out: Console, result: Any) -> None:
     """Print a response of any kind."""
     out.print(Text(f"{result.title}: {result.kind} response, damping: {result.damping.describe()}"))
-    _SHOWN[result.kind](out, result)
+    out.print(Text(response_band(result)))
+    _show_rows(out, response_rows(result))
+    if result.kind == "random":
+        _show_envelope(out, result)
+    if result.kind != "transient":
+        _show_verdicts(out, result.verdicts)
     show_warnings(out, result.warnings)
 
 
-Row = tuple[str, ...]
+def response_rows(result: Any) -> Rows:
+    """Return what a response of any kind comes to, output by output, as texts."""
+    rows: Rows = _ROWS[result.kind](result)
+    return rows
 
 
-def _show_rows(
-    out: Console,
-    heads: Row,
-    rows: Sequence[Row],
-    left: Collection[int],
-    narrow: Sequence[tuple[int, ...]],
-) -> None:
+def response_band(result: Any) -> str:
+    """Say over which frequencies or times a response runs."""
+    if result.kind == "transient":
+        t = result.time_s
+        return f"{t[0]:g} to {t[-1]:g} s, {len(t)} times; {result.count} modes and a static rest"
+    f = result.frequency_hz
+    band = f"{f[0]:g} to {f[-1]:g} Hz"
+    if result.kind == "random":
+        return f"band {band}, exposure {result.duration_s:g} s"
+    if result.kind == "shock":
+        return f"oscillators of {band}, Q = {result.q:g}; {result.count} modes"
+    return f"{len(f)} frequencies, {band}"
+
+
+def _show_rows(out: Console, own: Rows) -> None:
     """Print a table; where the console is narrow, with the first choice of columns that fits."""
-    every = tuple(range(len(heads)))
-    tables = (_table(heads, rows, left, kept) for kept in (every, *narrow))
+    every = tuple(range(len(own.heads)))
+    tables = (_table(own, kept) for kept in (every, *own.narrow))
     out.print(fitting(tables, out, wrapped=True))
 
 
-def _table(heads: Row, rows: Sequence[Row], left: Collection[int], kept: tuple[int, ...]) -> Table:
-    table = new_table(*(heads[k] for k in kept), left=[i for i, k in enumerate(kept) if k in left])
-    for row in rows:
+def _table(own: Rows, kept: tuple[int, ...]) -> Table:
+    left = [i for i, k in enumerate(kept) if k in own.left]
+    table = new_table(*(own.heads[k] for k in kept), left=left)
+    for row in own.rows:
         table.add_row(*(Text(row[k]) for k in kept))
     return table
 
 
-def _show_harmonic(out: Console, result: HarmonicResult) -> None:
+def _harmonic_rows(result: HarmonicResult) -> Rows:
     f = result.frequency_hz
-    out.print(Text(f"{len(f)} frequencies, {f[0]:g} to {f[-1]:g} Hz"))
     rows: list[Row] = []
     for row, output in enumerate(result.outputs):
         highest = sorted(result.peaks[row], key=lambda peak: -peak.size)[:_MOST_PEAKS]
@@ -66,7 +102,7 @@ def _show_harmonic(out: Console, result: HarmonicResult) -> None:
                 f"{peak.frequency_hz:.6g}",
                 f"{peak.size:.5g}",
                 output.unit,
-                f"{result.error[row]:.1e}",
+                f"{result.peak_error[row]:.1e}",
                 mode_near(result.modes, peak.frequency_hz),
             )
             name = output.name if peak is highest[0] else ""
@@ -76,8 +112,7 @@ def _show_harmonic(out: Console, result: HarmonicResult) -> None:
             largest = (f"{f[k]:.6g}", f"{abs(result.values[row, k]):.5g}", output.unit)
             rows.append((output.name, *largest, f"{result.error[row]:.1e}", "no peak"))
     heads = ("output", "peak [Hz]", "amplitude", "unit", "+-", "mode")
-    _show_rows(out, heads, rows, (0, 3, 5), [(0, 1, 2, 3, 4)])
-    show_verdicts(out, result.verdicts)
+    return Rows(heads, rows, (0, 3, 5), [(0, 1, 2, 3, 4)])
 
 
 def mode_near(modes: tuple[Basis, ...], frequency_hz: float) -> str:
@@ -92,9 +127,7 @@ def mode_near(modes: tuple[Basis, ...], frequency_hz: float) -> str:
     return name if distance < 0.1 else ""
 
 
-def _show_random(out: Console, result: RandomResult) -> None:
-    f = result.frequency_hz
-    out.print(Text(f"band {f[0]:g} to {f[-1]:g} Hz, exposure {result.duration_s:g} s"))
+def _random_rows(result: RandomResult) -> Rows:
     rows: list[Row] = []
     for output, own in zip(result.outputs, result.statistics, strict=True):
         size = scale_of(output.unit)
@@ -110,9 +143,7 @@ def _show_random(out: Console, result: RandomResult) -> None:
         rows.append((output.name, *cells))
     heads = ("output", "rms", "unit", "+-", "3 sigma", "largest", "up/s", "mostly by")
     narrow = [(0, 1, 2, 3, 4, 5, 7), (0, 1, 2, 3, 4, 5, 6), (0, 1, 2, 3, 4, 5), (0, 1, 2, 3)]
-    _show_rows(out, heads, rows, (0, 2, 7), narrow)
-    _show_envelope(out, result)
-    show_verdicts(out, result.verdicts)
+    return Rows(heads, rows, (0, 2, 7), narrow)
 
 
 def mostly(own: OutputStatistics) -> str:
@@ -144,10 +175,14 @@ def _show_envelope(out: Console, result: RandomResult) -> None:
         )
 
 
-def show_verdicts(out: Console, verdicts: Sequence[Verdict]) -> None:
+def _show_verdicts(out: Console, verdicts: Sequence[Verdict]) -> None:
     """Print the equipment line by line."""
-    if not verdicts:
-        return
+    if verdicts:
+        _show_rows(out, verdict_rows(verdicts))
+
+
+def verdict_rows(verdicts: Sequence[Verdict]) -> Rows:
+    """Return what equipment feels against what it may, line by line, as texts."""
     rows: list[Row] = []
     for own in verdicts:
         rms = "" if own.rms is None else f"{own.rms / STANDARD_GRAVITY:.3g}"
@@ -163,7 +198,7 @@ def show_verdicts(out: Console, verdicts: Sequence[Verdict]) -> None:
         rows.append((own.name, *cells))
     heads = ("equipment", "x [m]", "margin [dB]", "verdict", "at [Hz]", "mode", "force", "rms [g]")
     narrow = [(0, 2, 3, 4, 5, 6, 7), (0, 2, 3, 4, 5, 6), (0, 2, 3, 4, 5), (0, 2, 3)]
-    _show_rows(out, heads, rows, (0, 3, 5, 6), narrow)
+    return Rows(heads, rows, (0, 3, 5, 6), narrow)
 
 
 class Shown(NamedTuple):
@@ -178,25 +213,18 @@ def scale_of(unit: str) -> Shown:
     return Shown(STANDARD_GRAVITY, "g") if unit == "m/s^2" else Shown(1.0, unit)
 
 
-def _show_transient(out: Console, result: TransientResult) -> None:
-    t = result.time_s
-    out.print(
-        Text(f"{t[0]:g} to {t[-1]:g} s, {len(t)} times; {result.count} modes and a static rest")
-    )
+def _transient_rows(result: TransientResult) -> Rows:
     found = zip(result.outputs, result.largest, result.peak_error, strict=True)
     rows: list[Row] = []
     for output, (time, value), error in found:
         size = scale_of(output.unit)
         cells = (f"{value / size.factor:.5g}", size.unit, f"{error / size.factor:.1e}")
         rows.append((output.name, *cells, f"{time:.5g}"))
-    _show_rows(out, ("output", "largest", "unit", "+-", "at [s]"), rows, (0, 2), [(0, 1, 2, 3)])
+    return Rows(("output", "largest", "unit", "+-", "at [s]"), rows, (0, 2), [(0, 1, 2, 3)])
 
 
-def _show_shock(out: Console, result: ShockResult) -> None:
+def _shock_rows(result: ShockResult) -> Rows:
     f = result.frequency_hz
-    out.print(
-        Text(f"oscillators of {f[0]:g} to {f[-1]:g} Hz, Q = {result.q:g}; {result.count} modes")
-    )
     rows: list[Row] = []
     for row, output in enumerate(result.outputs):
         size, k = scale_of(output.unit), int(np.argmax(result.srs[row]))
@@ -204,13 +232,12 @@ def _show_shock(out: Console, result: ShockResult) -> None:
         more = (f"{result.error[row] / size.factor:.1e}", f"{f[k]:.5g}")
         rows.append((output.name, *cells, *more))
     heads = ("output", "largest SRS", "unit", "+-", "at [Hz]")
-    _show_rows(out, heads, rows, (0, 2), [(0, 1, 2, 3)])
-    show_verdicts(out, result.verdicts)
+    return Rows(heads, rows, (0, 2), [(0, 1, 2, 3)])
 
 
-_SHOWN: dict[str, Any] = {
-    "harmonic": _show_harmonic,
-    "random": _show_random,
-    "transient": _show_transient,
-    "shock": _show_shock,
+_ROWS: dict[str, Any] = {
+    "harmonic": _harmonic_rows,
+    "random": _random_rows,
+    "transient": _transient_rows,
+    "shock": _shock_rows,
 }

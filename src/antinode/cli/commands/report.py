@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from antinode.cli.options import Json, ReportFile, ReportModes, ReportTolerance, Set
+from antinode.cli.options import (
+    Json,
+    ReportFile,
+    ReportModes,
+    ReportResponses,
+    ReportTolerance,
+    Set,
+)
 
 
 def report(
@@ -15,6 +22,7 @@ def report(
     set_: Set = (),
     modes: ReportModes = None,
     tolerance: ReportTolerance = None,
+    response: ReportResponses = (),
     json: Json = False,
 ) -> None:
     """Write a report on a case, a beam or a study that can be handed to a reviewer.
@@ -27,6 +35,7 @@ def report(
 
     - Example: **antinode report case.toml -o report.pdf**
     - Example: **antinode report beam.toml -o report.html --modes 4**
+    - Example: **antinode report beam.toml -o report.pdf --response random.toml**
 
     Parameters
     ----------
@@ -35,4 +44,4 @@ def report(
     """
     from antinode.report.command import run_report
 
-    run_report(file, set_, output, modes=modes, tolerance=tolerance, json=json)
+    run_report(file, set_, output, modes=modes, tolerance=tolerance, responses=response, json=json)
