@@ -58,6 +58,11 @@ def validate(
         raise InputError(f"{where}: tables are nested too deeply; flatten them") from error
 
 
+def explained(model: type[BaseModel], error: ValidationError) -> InputError:
+    """Return what is wrong with the arguments of a model, for a caller in Python."""
+    return InputError(_explain(model, error, Places(f"{model.__name__}(...)", {}, ())))
+
+
 class Places(NamedTuple):
     """How a message names what is wrong: the file, files of tables, lists of rows."""
 

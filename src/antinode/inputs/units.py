@@ -17,9 +17,16 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    ValidationError,
+)
 from pydantic_core import PydanticCustomError, PydanticKnownError, core_schema
 
+from .explain import explained
 from .known_units import FACTORS
 from .written import split_number, tidy_unit
 
@@ -198,6 +205,17 @@ class Frozen(BaseModel):
     """An immutable input: unknown keys are errors, infinities and NaN are refused."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    if not TYPE_CHECKING:  # what reads the code takes the arguments from the fields
+
+        def __init__(self, **data: Any) -> None:
+            """Make it from its fields; say in one sentence what is wrong with them."""
+            try:
+                super().__init__(**data)
+            except ValidationError as error:
+                raise explained(type(self), error) from None
+
+        __init__.__pydantic_base_init__ = True  # tables of files are not made by it
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy with some values replaced, and nothing kept that followed from the old."""

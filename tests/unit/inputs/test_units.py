@@ -7,6 +7,7 @@ import pint
 import pytest
 from pydantic import ConfigDict, Field, ValidationError
 
+from antinode.errors import InputError
 from antinode.inputs.known_units import FACTORS
 from antinode.inputs.units import Angle, Force, Frozen, Length, Number, to_si, unit_factor
 
@@ -107,7 +108,7 @@ def test_powers_of_powers_are_refused_at_once(power):
 
 @pytest.mark.parametrize("value", [math.nan, "nan", "nan mm", math.inf, "1e400 m"])
 def test_a_model_refuses_what_is_not_finite(value):
-    with pytest.raises(ValidationError, match="finite number"):
+    with pytest.raises(InputError, match="finite number"):
         Sample(length=value)
 
 
@@ -119,7 +120,7 @@ class Support(Frozen):
 def test_where_infinity_is_allowed_nan_is_not():
     assert Support(stiffness="inf").stiffness == math.inf
     for wrong in (math.nan, "nan", "nan N"):
-        with pytest.raises(ValidationError, match="finite number"):
+        with pytest.raises(InputError, match="finite number"):
             Support(stiffness=wrong)
 
 
@@ -169,3 +170,27 @@ def test_a_copy_forgets_what_followed_from_the_old_values():
 def test_an_angle_is_no_number_of_another_unit(text, unit):
     with pytest.raises(ValueError, match="pure number" if not unit else "no unit of"):
         to_si(text, unit)
+
+
+class Whole(Frozen):
+    sample: Sample = Sample()
+    name: str = ""
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Sample(length="steel"), "Sample(...): length is 'steel'; it needs a number"),
+        (lambda: Sample(lenght=1), "unknown key lenght; did you mean length?"),
+        (lambda: Whole(sample={"length": "x"}), "Whole(...): sample.length is 'x'"),
+        (lambda: Sample(length="1 kg"), "no unit of m"),
+        (lambda: Whole(name=3, sample=4), "(1 more problem after this one)"),
+    ],
+)
+def test_python_callers_are_told_in_one_sentence(make, words):
+    with pytest.raises(InputError) as caught:
+        make()
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert "pydantic" not in str(caught.value)
+    assert caught.value.__cause__ is None
