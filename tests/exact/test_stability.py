@@ -208,3 +208,19 @@ def test_the_least_material_loss_lowers_the_flutter_load_to_half():
 
 def test_without_dampers_nothing_is_told_of_them():
     assert an.stability(column(share=0.0)).damped is None
+
+
+@pytest.mark.parametrize("share", [0.499, 0.4999])
+def test_a_stability_that_is_soon_regained_is_sharp_on_both_sides(share):
+    """A column stands bent where cos(sqrt(P)) = -share/(1 - share): twice about pi."""
+    lost, regained, _ = checked(an.stability(column(share=share))).critical
+    root = np.arccos(-share / (1 - share))
+    for found, exact in ((lost, root), (regained, 2 * np.pi - root)):
+        assert abs(found.load_factor - exact**2) <= found.error + 1e-13
+        assert found.error < 1e-9
+    assert (lost.change, regained.change) == ("lost", "regained")
+
+
+def test_a_follower_that_pulls_makes_nothing_diverge():
+    """Under a pull that turns no bent shape stays; omega^2 of exp(-2 sqrt(P)) is soon rounding."""
+    assert an.stability(column(force=-1.0)).critical == ()

@@ -410,7 +410,7 @@ def _alone(solver: Backend, batch: BeamBatch, row: int, results: ChainRoots) -> 
         if not check_certificate(found):
             return NOT_BRACKETED
         wanted = elastic(found, below, chain)[: batch.modes]
-        rounding = _rounding_by_shapes(solver, chain, wanted)
+        rounding = rounding_by_shapes(solver, chain, wanted)
     except FloatingPointError:
         return OUT_OF_REACH
     except (CountingError, ArithmeticError):
@@ -432,7 +432,7 @@ def _is_valid(chain: Chain) -> bool:
     return bool(finite and np.all(structure > 0))
 
 
-def _rounding_by_shapes(solver: Backend, chain: Chain, found: list[Eigenvalue]) -> Array:
+def rounding_by_shapes(solver: Backend, chain: Chain, found: list[Eigenvalue]) -> Array:
     """Return the rounding of omega^2 [rad^2/s^2]: small against the energies that make it."""
     omega2 = np.array([value.value for value in found])
     fine = split_for(chain, np.abs(omega2))

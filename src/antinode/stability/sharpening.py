@@ -42,9 +42,14 @@ class Root:
     omega2_rounding: float
 
 
-def sharpen(watcher: Watcher, change: Change, tolerance: float) -> tuple[CriticalLoad, list[str]]:
-    """Return a change as a critical load of the beam, and what to warn of."""
+def sharpen(
+    watcher: Watcher, change: Change, tolerance: float
+) -> tuple[CriticalLoad | None, list[str]]:
+    """Return a change as a critical load of the beam, and what to warn of; None: it is rounding."""
     beam, names = watcher.beam, tuple(watcher.names[k] for k in change.index)
+    sides = change.before, change.after
+    if not change.flutter and all(watcher.doubtful(s, change.index[0]) for s in sides):
+        return None, []
     if not change.number:
         return _unsharp(change, names), []
     varies = bool(np.any(beam.varies(BENDING)))
@@ -115,16 +120,26 @@ def _pair(chain: Chain, change: Change) -> complex | None:
 
 
 def _secant(watcher: Watcher, change: Change) -> float | None:
-    """Return the factor at which the smooth value is zero, to rounding."""
+    """Return the factor at which the smooth value is zero, to rounding.
+
+    Secants stay between two places of different signs, where there are such: next to where the
+    value is lowest, as where a stability is regained soon, a secant by itself would leave them.
+    """
     a, b = change.before.factor, change.after.factor
     at_a, at_b = change.value(watcher.load(a)), change.value(watcher.load(b))
+    sides = {at_a > 0: a, at_b > 0: b} if at_a is not None and at_b is not None else {}
     for _ in range(_STEPS):
         if at_a is None or at_b is None:
             return None
         if at_a == at_b or abs(b - a) <= _SAME * abs(b):
             return b
         a, b = b, b - at_b * (b - a) / (at_b - at_a)
+        within = min(sides.values()) <= b <= max(sides.values())
+        if len(sides) == 2 and not within and abs(b - a) > _NEAR * abs(b):
+            b = sum(sides.values()) / 2
         at_a, at_b = at_b, change.value(watcher.load(b))
+        if at_b is not None:
+            sides[at_b > 0] = b
         near = abs(b - a) < _NEAR * abs(b)
         if near and at_b is not None and abs(at_b) >= abs(at_a):  # nothing but rounding is left
             return a

@@ -178,6 +178,8 @@ class _Walk:
                 self.critical.append(_at_once(after.factor, after.unstable))
             for change in changes(self.watcher, before, after):
                 found, warnings = sharpen(self.watcher, change, self.tolerance)
+                if found is None:
+                    continue
                 self.critical.append(found)
                 self.told += warnings
                 enough = self.most is None and found.certificate.unstable[1] >= _ENOUGH

@@ -14,6 +14,7 @@ from antinode.arrays import Array
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.modes.backends import Backend
+from antinode.modes.batch import rounding_by_shapes
 from antinode.modes.damped.family import on_chain
 from antinode.modes.following import Following
 from antinode.modes.loading import Loading, loading
@@ -21,6 +22,7 @@ from antinode.modes.rigid import exact_zeros, pivot_of, rigid_modes, rigid_rotat
 from antinode.riccati.arrays import Complex
 from antinode.riccati.chain import Chain
 from antinode.riccati.lateral import without_tangential
+from antinode.riccati.roots import Eigenvalue
 
 _MEETING = 0.5  # gap over the middle of two eigenvalues
 _ROUNDING = 1e-12  # of s
@@ -125,6 +127,19 @@ class Watcher:
             turn = rigid_rotation(self.load(1.0), pivot_of(self.beam))
             real = np.sort(np.append(real, np.copysign(_TRACE, turn)))
         return State(factor, real, pairs, len(found.eigenvalues), proven)
+
+    def doubtful(self, state: State, index: int) -> bool:
+        """Tell whether rounding hides the sign of a real eigenvalue.
+
+        A follower that pulls has one that falls like ``exp(-2 L sqrt(-N/EI))``: positive for any
+        pull, and soon less than rounding leaves of it.
+        """
+        if not index < len(state.real):
+            return False
+        omega2 = float(state.real[index])
+        value = Eigenvalue(0, omega2, (omega2, omega2), (0, 0))
+        doubt = rounding_by_shapes(self.backend, self.load(state.factor), [value])
+        return bool(abs(omega2) <= doubt[0])
 
     def _with_loads(self, chain: Chain, factor: float) -> State:
         """Return the state where loads along the beam turn: from complex modes, ``-s^2``."""
