@@ -1,8 +1,12 @@
-"""Options of the tests."""
+"""Options of the tests, and what a run makes once for all its workers."""
 
 import os
+from pathlib import Path
+from typing import NamedTuple
 
 import pytest
+
+from installed import SOLVE, install, run, shared
 
 
 def pytest_addoption(parser):
@@ -30,3 +34,29 @@ def pytest_sessionfinish(session):
         for report in skipped:
             reporter.write_line(f"skipped, and no test may be: {report.nodeid}", red=True)
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
+@pytest.fixture(scope="session")
+def installed(tmp_path_factory):
+    """The archives that are released, and an environment with the wheel."""
+    pytest.importorskip("hatchling")
+    with shared(tmp_path_factory, "installed") as folder:
+        return install(folder)
+
+
+class Cold(NamedTuple):
+    """Folder of code that was compiled anew, and what the process that had it made found."""
+
+    cache: Path
+    found: str
+
+
+@pytest.fixture(scope="session")
+def cold(tmp_path_factory, installed):
+    """Code compiled anew, by the installed wheel; of a run that is the only time."""
+    with shared(tmp_path_factory, "installed") as folder:
+        said = folder / "found.txt"
+        if not said.exists():
+            found = run(installed.python, "-c", SOLVE, "nothing", where=folder)
+            said.write_text(found)
+        return Cold(installed.cache, said.read_text())

@@ -1,18 +1,18 @@
-"""A server for all tests of a process, a browser, and a fresh page."""
+"""A server for the tests of a file, a browser that ends with them, and a fresh page."""
 
 import pytest
 
 from app_browser import CHROMIUM, FLAGS, Tab, serving
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def address():
     """Address of a page with the starter vehicle."""
     with serving() as (url, _):
         yield url
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def chromium():
     """Chromium without a window."""
     sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
@@ -24,9 +24,17 @@ def chromium():
         browser.close()
 
 
+@pytest.fixture(autouse=True)
+def no_page_stays_open(request):
+    """Close what a test leaves open: a page that is looked at by nobody draws on."""
+    used = "chromium" in request.fixturenames
+    browser = request.getfixturevalue("chromium") if used else None
+    yield
+    for context in browser.contexts if browser else ():
+        context.close()
+
+
 @pytest.fixture
 def tab(chromium, address):
     """A fresh page."""
-    opened = Tab(chromium, address)
-    yield opened
-    opened.page.close()
+    return Tab(chromium, address)

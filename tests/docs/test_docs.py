@@ -3,7 +3,8 @@
 In every Markdown file that has blocks to run, in order and in one temporary folder:
 
 - a block ```toml or ```csv whose first line is a comment with a file name is written to that file;
-- a block ```sh run is run by bash with the installed `antinode` on the path;
+- a block ```sh run is run by bash with the installed `antinode` on the path; but for the README and
+  the tutorial, one that holds nothing but calls of `antinode` is run by this process;
 - a block ```python run is executed; the blocks of a document share their variables;
 - a block ```text right after one that ran shows its output, perhaps shortened by lines of "...".
   Its words must be there in the same order, line breaks and table rules aside. A number may differ
@@ -15,6 +16,7 @@ import ast
 import io
 import os
 import re
+import shlex
 import subprocess
 import sys
 from contextlib import redirect_stdout
@@ -23,9 +25,13 @@ from pathlib import Path
 
 import pytest
 
+from cli_run import run
+
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 SOURCE = ROOT / "src" / "antinode"
+TYPED = ("README.md", "docs/tutorial.md")
+"""Documents whose commands are run as a reader types them, each in a process of its own."""
 
 
 def markdown_files():
@@ -82,11 +88,29 @@ def run_shell(text):
         capture_output=True,
         text=True,
         check=False,
-        env={**os.environ, "PATH": path, "COLUMNS": "104"},
+        env={**os.environ, "PATH": path},
     )
-    if done.returncode:
-        raise AssertionError(f"exit code {done.returncode}:\n{done.stdout}{done.stderr}")
-    return done.stdout + done.stderr
+    return said(done.returncode, done.stdout + done.stderr)
+
+
+def said(code, text):
+    """Return what commands printed, which must have gone well."""
+    assert not code, f"exit code {code}:\n{text}"
+    return text
+
+
+def calls(text):
+    """Return the arguments of every call in a block of calls of antinode; None of any other."""
+    if re.search(r"[|<>$;&*`#()]", text):
+        return None
+    lines = [shlex.split(line) for line in text.replace("\\\n", " ").splitlines() if line.strip()]
+    return [line[1:] for line in lines] if all(line[0] == "antinode" for line in lines) else None
+
+
+def run_here(arguments):
+    """Run antinode in this process; return what it prints."""
+    code, out, err = run(*arguments)
+    return said(code, out + err)
 
 
 def run_python(text, names, where):
@@ -101,6 +125,7 @@ def run_python(text, names, where):
 def test_commands_and_snippets(document, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
+    monkeypatch.setenv("COLUMNS", "104")
     names, printed, shown = {"__name__": document}, None, 0
     for block in blocks((ROOT / document).read_text(encoding="utf-8")):
         where = f"{document}:{block.line}"
@@ -108,7 +133,8 @@ def test_commands_and_snippets(document, tmp_path, monkeypatch):
         if block.language in ("toml", "csv"):
             write_file(block.text)
         elif block.language == "sh" and runs:
-            output = run_shell(block.text)
+            here = None if document in TYPED else calls(block.text)
+            output = run_shell(block.text) if here is None else "".join(map(run_here, here))
         elif block.language == "python" and runs:
             output = run_python(block.text, names, where)
         elif block.language == "text" and printed is not None:
