@@ -144,8 +144,9 @@ class Finder:
         places = np.sign(roots) * roots**4
         near = 1.0001 * np.array(inside), self._near_zero(), hints
         places = np.concatenate([places, [lowest, R], *near])
-        places = np.unique(places[(places >= lowest) & (places <= R)])
-        places = places[np.abs(places) >= self._floor]
+        places = np.sort(places[(places >= lowest) & (places <= R)])
+        new = np.append(True, places[1:] > places[:-1])
+        places = places[new & (np.abs(places) >= self._floor)]
         return places, self.divided(places)
 
     def _told_apart(self, places: Array, values: Array) -> list[Bracket]:

@@ -214,7 +214,7 @@ def _cluster(matching: Matching, lane: int, members: int, weight: Array, points:
     """
     gap = matching.gap[:, lane]
     even = np.linspace(0, len(gap), min(_CANDIDATE_NODES, len(gap)) + 1)[1:-1].astype(np.int64)
-    spread = np.split(np.arange(len(gap)), np.unique(np.concatenate([even, points + 1])))
+    spread = np.split(np.arange(len(gap)), sorted({*even.tolist(), *(points + 1).tolist()}))
     nodes = np.array([part[np.argmin(gap[part])] for part in spread if len(part)])
     d = matching.right.F.shape[-1]
     frames = matching.right.F[nodes, lane]
