@@ -218,9 +218,9 @@ def read_overridden(path: Path, assignments: Iterable[str]) -> tuple[dict[str, A
 
 
 def read_beside_case(
-    path: Path, assignments: Iterable[str], what: str, *, of_beams: bool = False
+    path: Path, assignments: Iterable[str], what: str
 ) -> tuple[dict[str, Any], str]:
-    """Read a TOML file that names a case, as `read_overridden` does.
+    """Read a TOML file that names a case or a beam file, as `read_overridden` does.
 
     Parameters
     ----------
@@ -229,8 +229,6 @@ def read_beside_case(
         Overrides.
     what : str
         What the file is, for messages: "a study file".
-    of_beams : bool
-        Whether it may name a beam file in place of the case.
 
     Raises
     ------
@@ -243,13 +241,8 @@ def read_beside_case(
             f"{path}: this is a case file; name it in {what} with case = '{path.name}'"
         )
     if "beam" in tables:
-        if of_beams:
-            raise InputError(
-                f"{path}: this is a beam file; name it in {what} with case = '{path.name}'"
-            )
         raise InputError(
-            f"{path}: this is a beam file; {what} names the case of a vehicle: solve the beam with "
-            f"'antinode beam {path}', once for each change by --set, or vary it in Python"
+            f"{path}: this is a beam file; name it in {what} with case = '{path.name}'"
         )
     return tables, where
 

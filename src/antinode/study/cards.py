@@ -111,7 +111,7 @@ def sensitivity_card(result: SensitivityResult) -> str:
 
 def problem_line(problem: IdentificationProblem) -> str:
     """Return an identification that is not done yet in one line."""
-    return f"<IdentificationProblem '{problem.case.vehicle.name}': {_asked(problem)}>"
+    return f"<IdentificationProblem '{problem.subject.name}': {_asked(problem)}>"
 
 
 def _asked(problem: IdentificationProblem) -> str:
@@ -128,12 +128,12 @@ def problem_card(problem: IdentificationProblem) -> str:
     rows = [(p.key, "number") for p in problem.parameters]
     rows += [(d.column, "along the body") for d in problem.distributions]
     tables = [html_table(("may change", "as"), rows, (0, 1))]
-    return card(problem.case.vehicle.name, _asked(problem), tables=tables)
+    return card(problem.subject.name, _asked(problem), tables=tables)
 
 
 def identification_line(result: Identification) -> str:
     """Return an identification in one line."""
-    return f"<Identification '{result.case.vehicle.name}': {_found(result)}>"
+    return f"<Identification '{result.name}': {_found(result)}>"
 
 
 def _found(result: Identification) -> str:
@@ -169,4 +169,4 @@ def identification_card(result: Identification) -> str:
         html_table(("row", "mode", "observed [Hz]", "fitted [Hz]", "off"), compared, (0, 1)),
     ]
     picture = bars_picture(bars, "fitted less observed", "%")
-    return card(result.case.vehicle.name, _found(result), picture, tables, result.warnings)
+    return card(result.name, _found(result), picture, tables, result.warnings)

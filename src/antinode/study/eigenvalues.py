@@ -1,4 +1,4 @@
-"""The eigenvalues of a case on chains of fixed refinement: a smooth function of its numbers.
+"""The eigenvalues of a case or a beam on chains of fixed refinement: smooth in its numbers.
 
 `solve_modes` refines until its estimate meets a tolerance. That makes tiny jumps as the input
 changes, which derivatives and least squares do not like; here the refinement is chosen once.
@@ -14,18 +14,19 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.beam import Beam
-from antinode.beam.ends import FREE
 from antinode.beam.families import FAMILIES, FamilyName
+from antinode.beam.limits import check_limits
 from antinode.errors import ComputationError
 from antinode.modes.backends import choose
 from antinode.modes.batch import BeamBatch, solve_many
 from antinode.modes.following import eigenvalues_alone
 from antinode.modes.hertz import signed_hertz
-from antinode.modes.rigid import rigid_modes_of, zeros_of
+from antinode.modes.rigid import exact_zeros, rigid_modes
 from antinode.modes.rotation import elastic
 from antinode.riccati.chain import Chain
 from antinode.riccati.reasons import FLUTTERS
 from antinode.riccati.roots import CountingError
+from antinode.study.design.subject import Given
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import ChainModes, EigenvalueDerivatives
 from antinode.vehicle.loads import Loads
@@ -41,20 +42,22 @@ class CaseEigenvalues:
 
     Attributes
     ----------
-    case : Case
-    loads : Loads
+    case : Case or BeamFile
+    loads : Loads or None
+        Of a case.
     beam : Beam
     modes : dict
         `ChainModes` 1 ... n by family, rigid ones left out.
     """
 
-    case: Case
-    loads: Loads
+    case: Given
+    loads: Loads | None
     beam: Beam
     modes: Mapping[FamilyName, ChainModes] = field(repr=False)
 
     def sensitivity(self, family: FamilyName) -> EigenvalueDerivatives:
-        """Return the derivatives of the eigenvalues of a family."""
+        """Return the derivatives of the eigenvalues of a family, of a case."""
+        assert self.loads is not None
         return EigenvalueDerivatives(self.modes[family], self.beam, self.loads)
 
     def frequencies_hz(self, family: FamilyName) -> Array:
@@ -63,9 +66,11 @@ class CaseEigenvalues:
 
 
 def eigenvalues_of(
-    cases: Sequence[Case], wanted: Sequence[Wanted], refinement: int = 2
+    cases: Sequence[Given], wanted: Sequence[Wanted], refinement: int = 2
 ) -> tuple[CaseEigenvalues, ...]:
     """Compute the eigenvalues 1 ... n of each family that is wanted, of several cases at once.
+
+    Those of vehicles side by side, those of beams, which are held in all sorts of ways, in turn.
 
     Raises
     ------
@@ -75,27 +80,36 @@ def eigenvalues_of(
         If its loads or its eigenvalues cannot be computed.
     """
     beams = [case.beam() for case in cases]
+    for beam in beams:
+        check_limits(beam)
     modes: list[dict[FamilyName, ChainModes]] = [{} for _ in cases]
     for family in FAMILIES:
         rows = [k for k, families in enumerate(wanted) if family in families]
         chains = [beams[k].chain(family, refinement) for k in rows]
+        own = [beams[k] for k in rows]
         numbers = [wanted[k][family] for k in rows]
-        for k, chain, omega2 in zip(rows, chains, _side_by_side(chains, numbers), strict=True):
+        found = _eigenvalues(own, chains, numbers, [isinstance(cases[k], Case) for k in rows])
+        for k, chain, omega2 in zip(rows, chains, found, strict=True):
             modes[k][family] = ChainModes(chain, omega2, shear_form=beams[k].shear_form)
-    return tuple(map(CaseEigenvalues, cases, [case.loads for case in cases], beams, modes))
+    loads = [case.loads if isinstance(case, Case) else None for case in cases]
+    return tuple(map(CaseEigenvalues, cases, loads, beams, modes))
 
 
-def _side_by_side(chains: Sequence[Chain], numbers: Sequence[int]) -> list[Array]:
-    """Return the eigenvalues 1 ... n of free chains of a family; those of equal size in a batch."""
+def _eigenvalues(
+    beams: Sequence[Beam], chains: Sequence[Chain], numbers: Sequence[int], free: Sequence[bool]
+) -> list[Array]:
+    """Return the eigenvalues 1 ... n of chains of a family; free ones of equal size in a batch."""
     found: list[Array] = [np.zeros(0)] * len(chains)
-    sizes = [len(chain.length) for chain in chains]
-    for size in set(sizes):
+    sizes = [len(chain.length) if alone else 0 for chain, alone in zip(chains, free, strict=True)]
+    for k in (k for k, size in enumerate(sizes) if not size):
+        found[k] = _solve(beams[k], chains[k], numbers[k])
+    for size in set(sizes) - {0}:
         rows = [k for k, n in enumerate(sizes) if n == size]
         batch = _batch([chains[k] for k in rows], max(numbers[k] for k in rows))
         solved = solve_many(batch)
         for k, values, reason in zip(rows, solved.omega2, solved.reason, strict=True):
             known = bool(np.all(np.isfinite(values))) and reason != FLUTTERS
-            found[k] = values[: numbers[k]] if known else _solve(chains[k], numbers[k])
+            found[k] = values[: numbers[k]] if known else _solve(beams[k], chains[k], numbers[k])
     return found
 
 
@@ -118,11 +132,11 @@ def _batch(chains: Sequence[Chain], modes: int) -> BeamBatch:
     return BeamBatch(length, modes=modes, family=family.name, following=following, **tables)
 
 
-def _solve(chain: Chain, number: int) -> Array:
-    """Return the eigenvalues 1 ... n of a free chain, after its rigid modes."""
-    rigid = rigid_modes_of(FREE, chain.family)
+def _solve(beam: Beam, chain: Chain, number: int) -> Array:
+    """Return the eigenvalues 1 ... n of a chain, after the rigid modes of its beam."""
+    rigid = len(rigid_modes(beam, chain.family))
     try:
-        zeros = zeros_of(FREE, chain)
+        zeros = exact_zeros(beam, chain.family)
         found = eigenvalues_alone(choose(), chain, number + rigid, zeros, 1e-10, rigid)
     except (CountingError, FloatingPointError) as error:
         wrong = f"the {chain.family} eigenvalues could not be found: {error}"
@@ -136,7 +150,7 @@ def _solve(chain: Chain, number: int) -> Array:
     return np.array([value.omega2 for value in wanted])
 
 
-def sufficient_refinement(case: Case, wanted: Wanted, tolerance: float) -> int:
+def sufficient_refinement(case: Given, wanted: Wanted, tolerance: float) -> int:
     """Return how finely chains must be divided for frequencies within a relative tolerance."""
     refinement, (before,) = 1, eigenvalues_of([case], [wanted], 1)
     while refinement < _FINEST:

@@ -67,7 +67,7 @@ def identification_axes(result: Identification) -> AxesArray:
         )
         above.plot(at, observed, "o", ms=7, mfc="none", color=PALETTE[0], label="observed")
         above.plot(at, fitted, "x", color=PALETTE[1], label="fitted")
-        above.set(ylabel="frequency [Hz]", title=f"{result.case.vehicle.name}: identified")
+        above.set(ylabel="frequency [Hz]", title=f"{result.name}: identified")
         above.legend()
         relative = 100 * (fitted / observed - 1)
         below.errorbar(at, relative, 100 * sd / observed, fmt="o", ms=4, color=PALETTE[0])

@@ -9,7 +9,7 @@ from antinode.errors import InputError
 from antinode.text import nearest, short
 
 from .numbers import Keys
-from .vehicle import Stations, Vehicle
+from .vehicle import Stations
 
 _MASS = "mass_per_length"
 _PLAIN = (
@@ -48,15 +48,6 @@ def column_values(stations: Stations, keys: Keys) -> Array:
     """Return the column that keys lead to."""
     column = getattr(stations, str(keys[0]))
     return np.asarray(column[keys[1]] if len(keys) > 1 else column)
-
-
-def with_column(vehicle: Vehicle, keys: Keys, values: Array) -> Vehicle:
-    """Return the vehicle with another column, unchecked."""
-    stations = dict(vehicle.stations.__dict__)
-    name = str(keys[0])
-    stations[name] = {**stations[name], keys[1]: values} if len(keys) > 1 else values
-    changed = Stations.model_construct(**stations)
-    return Vehicle.model_construct(**{**vehicle.__dict__, "stations": changed})
 
 
 def interpolation_matrix(points: Array, x: Array, how: str) -> Array:

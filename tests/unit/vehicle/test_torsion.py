@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from antinode import InputError, load_case, solve_modes
+from antinode.study.design.subject import with_value
 from antinode.study.eigenvalues import eigenvalues_of
-from antinode.vehicle.columns import with_column
 from antinode.vehicle.effects import by_logarithm
 
 STARTER = files("antinode.examples") / "starter"
@@ -44,12 +44,10 @@ def test_derivatives_by_the_columns(tmp_path, how):
     weights, h = np.cos(np.arange(len(stations.x))), 1e-5
     for name in ("torsional_stiffness", "polar_inertia_per_length"):
         changed = [
-            case.model_copy(
-                update={
-                    "vehicle": with_column(
-                        case.vehicle, (name,), getattr(stations, name) * np.exp(step * weights)
-                    )
-                }
+            with_value(
+                case,
+                ("vehicle", "stations", name),
+                getattr(stations, name) * np.exp(step * weights),
             )
             for step in (-h, h)
         ]

@@ -17,12 +17,12 @@ def identify(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> None:
-    """Find the parameters of a vehicle that explain observed frequencies.
+    """Find the numbers of a vehicle, or of a beam, that explain observed frequencies.
 
-    The file names a case, observations of it, and what of it may change: numbers, numbers of every
-    row, and distributions along the body. Printed are observed against fitted frequencies, values
-    with standard deviations, and what the data leave open. Ctrl-C ends it with the best values so
-    far (exit code 130).
+    The file names a case or a beam file, observations of it, and what of it may change: numbers,
+    numbers of every row, and distributions along the body. Printed are observed against fitted
+    frequencies, values with standard deviations, and what the data leave open. Ctrl-C ends it with
+    the best values so far (exit code 130).
 
     - Example: **antinode identify identify.toml -o fitted**
     - Example: **antinode identify identify.toml --set fit.starts=8 --json**

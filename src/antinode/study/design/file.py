@@ -347,7 +347,7 @@ def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
         If anything in it is wrong.
     """
     path = Path(path)
-    tables, where = read_beside_case(path, assignments, "a study file", of_beams=True)
+    tables, where = read_beside_case(path, assignments, "a study file")
     file = validate(StudyFile, tables, where)
     kept: dict[str, Any] = {
         field.alias or name: getattr(file, name) for name, field in _Choices.model_fields.items()

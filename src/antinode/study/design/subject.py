@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -47,6 +47,10 @@ _OF_VEHICLES = (
     "shear_stiffness",
     "rotary_inertia_per_length",
 )
+
+
+Given = Case | BeamFile
+"""What a file may name in place of a case."""
 
 
 class Subject(Protocol):
@@ -217,10 +221,13 @@ class OfBeam(Subject):
     file : BeamFile
     responds : bool
         Whether its response is asked for too.
+    table : str
+        Of the study's file that names paths, for messages.
     """
 
     file: BeamFile
     responds: bool = False
+    table: str = "inputs"
     stations = ("stations",)
 
     @property
@@ -257,17 +264,23 @@ class OfBeam(Subject):
         inside = any(isinstance(key, int) for key in place.keys)
         return place.text if inside else str(place.keys[-1])
 
+    @property
+    def columns(self) -> list[str]:
+        """Names of its columns, without x."""
+        return [n for n in ALL_COLUMNS[1:] if getattr(self.tree.stations, n) is not None]
+
     def column(self, key: str) -> Keys | None:
         """Return the keys of a column; None for what is none."""
         bare = key.removeprefix("beam.").removeprefix("stations.")
         if bare not in ALL_COLUMNS:
             return None
-        known = [n for n in ALL_COLUMNS[1:] if getattr(self.tree.stations, n) is not None]
+        known = self.columns
+        where = f"{self.table}: key = {short(key)}"
         if bare == "x":
-            raise InputError(f"inputs: key = {short(key)}: positions of stations stay as they are")
+            raise InputError(f"{where}: positions of stations stay as they are")
         if bare not in known:
             say = f"the stations have no such column; {nearest(bare, known)}"
-            raise InputError(f"inputs: key = {short(key)}: {say}")
+            raise InputError(f"{where}: {say}")
         return (*self.stations, bare)
 
     def values(self, keys: Keys) -> Array:
@@ -285,9 +298,8 @@ class OfBeam(Subject):
         names = ["stations", *names] if names[0] in ALL_COLUMNS else names
         known = [n for n in BeamTable.model_fields if n != "name"]
         if names[0] not in known:
-            columns = [n for n in ALL_COLUMNS[1:] if getattr(self.tree.stations, n) is not None]
-            say = nearest(names[0], [*columns, *known])
-            raise InputError(f"inputs: key = {short(path)} leads nowhere; {say}")
+            say = nearest(names[0], [*self.columns, *known])
+            raise InputError(f"{self.table}: key = {short(path)} leads nowhere; {say}")
         here, place = place_below(self.tree, names, path)
         check_is_number(here, path, "name one number, such as springs.0.translational")
         if place.keys[:2] == (*self.stations, "x"):
@@ -325,14 +337,25 @@ class OfBeam(Subject):
 
     def changed(self, numbers: Mapping[Keys, Any], i: int) -> BeamFile:
         """Return the file with the numbers and columns of case `i`, unchecked."""
-        table = self.file.table
+        file = self.file
         for keys, values in numbers.items():
             value = values[i]
             one = float(value) if np.ndim(value) == 0 else np.asarray(value)
-            table = replaced(table, keys, one)
-        return self.file.model_copy(update={"table": table})
+            file = with_value(file, keys, one)
+        return file
 
 
-def subject_of(case: Case | BeamFile, responds: bool = False) -> OfVehicle | OfBeam:
+def subject_of(case: Given, responds: bool = False) -> OfVehicle | OfBeam:
     """Return what a study of a case, or of a beam file, varies something in."""
     return OfBeam(case, responds) if isinstance(case, BeamFile) else OfVehicle(case)
+
+
+Changed = TypeVar("Changed", bound=Given)
+
+
+def with_value(case: Changed, keys: Keys, value: Any) -> Changed:
+    """Return a case or a beam file with one number, or one column, replaced, unchecked."""
+    if not isinstance(case, BeamFile):
+        return replaced(case, keys, value)
+    changed = case.model_copy(update={"table": replaced(case.table, keys, value)})
+    return cast(Changed, changed)

@@ -13,11 +13,12 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.errors import InputError
-from antinode.vehicle.case import Case
-from antinode.vehicle.columns import column_keys, column_values, interpolation_matrix
-from antinode.vehicle.numbers import Keys
+from antinode.inputs.places import Keys
+from antinode.study.design.subject import Given, OfBeam, OfVehicle
+from antinode.text import nearest, short
+from antinode.vehicle.columns import column_keys, interpolation_matrix
 
-from .file import Distribution
+from .file import Distribution, parameters_of
 
 
 @dataclass(frozen=True)
@@ -58,21 +59,21 @@ class Column:
         return np.asarray(own if parent is None else own + parent)
 
 
-def make_column(case: Case, given: Distribution) -> Column:
+def make_column(case: Given, given: Distribution) -> Column:
     """Turn a table of the file into a column with unknowns."""
-    stations, step = case.vehicle.stations, case.vehicle.interpolation == "step"
-    keys = column_keys(stations, given.column)
-    x = stations.x
+    subject = parameters_of(case)
+    step, x = subject.interpolation == "step", subject.x
+    keys = _keys(subject, given.column)
     rows = (x[1:] + x[:-1]) / 2 if step else x
     points = _points(given, rows, x)
     weights = interpolation_matrix(points, rows, given.interpolation if not given.segments else "")
-    column = np.log(column_values(stations, keys))
+    column = _logarithm(subject, keys)
     parent = None
     if given.relative_to is not None:
-        parent_keys = column_keys(stations, given.relative_to)
+        parent_keys = _keys(subject, given.relative_to)
         if parent_keys == keys:
             raise InputError(f"distributions: {given.column} cannot be relative to itself")
-        column = column - np.log(column_values(stations, parent_keys))
+        column = column - _logarithm(subject, parent_keys)
         parent = ":".join(map(str, parent_keys))
     start = np.zeros(len(points))
     if given.fitted == "value":
@@ -81,6 +82,27 @@ def make_column(case: Case, given: Distribution) -> Column:
         weights = np.concatenate([weights, weights[-1:]])
     label = given.name or given.column.replace("_", " ")
     return Column(":".join(map(str, keys)), label, keys, points, weights, column, parent, start)
+
+
+def _keys(subject: OfVehicle | OfBeam, name: str) -> Keys:
+    """Return the keys from the stations to a column."""
+    if isinstance(subject, OfVehicle):
+        return column_keys(subject.case.vehicle.stations, name)
+    known = subject.columns
+    if name not in known:
+        raise InputError(f"distributions: column = {short(name)}; {nearest(name, known)}")
+    return (name,)
+
+
+def _logarithm(subject: OfVehicle | OfBeam, keys: Keys) -> Array:
+    values = subject.values((*subject.stations, *keys))
+    for row in np.flatnonzero(~((values > 0) & np.isfinite(values)))[:1]:
+        raise InputError(
+            f"distributions: column = {':'.join(map(str, keys))}: row {row + 1} is "
+            f"{values[row]:g}; what changes along the body does so on a logarithmic scale, which "
+            "needs finite values above 0"
+        )
+    return np.asarray(np.log(values))
 
 
 def _points(given: Distribution, rows: Array, x: Array) -> Array:

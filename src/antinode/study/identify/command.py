@@ -25,9 +25,9 @@ def run_identification(
     KeyboardInterrupt
         After an interrupted fit, once the best values so far are written and printed.
     """
-    if folder:
-        check_folder(folder, overwrite=overwrite)
     problem = load_identification(file, assignments)
+    if folder:
+        check_folder(folder, problem.case, overwrite=overwrite)
     try:
         result = identify(problem, progress=text_progress())
     finally:

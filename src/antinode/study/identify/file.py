@@ -1,6 +1,6 @@
-"""The identification file: a case, observations of it, and what of it may change.
+"""The identification file: a case or a beam, observations of it, and what of it may change.
 
-It has the name of a case file, `observations` (rows, or the name of a CSV file), tables
+It has the name of a case or beam file, `observations` (rows, or the name of a CSV file), tables
 `[[parameters]]` for numbers of the case and `[[distributions]]` for columns of its stations, and
 `[fit]`.
 """
@@ -16,12 +16,15 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, BeforeValidator, Field, create_model, model_validator
 
 from antinode.beam.families import BENDING, FamilyName
+from antinode.beam.file import TABLES, BeamFile
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_beside_case, toml_source
 from antinode.inputs.units import Frozen, Number, Unit
 from antinode.methods import ProblemMethods
-from antinode.vehicle.case import Case, check_real, load_case
+from antinode.study.design.file import load_subject
+from antinode.study.design.subject import OfBeam, OfVehicle, subject_of
+from antinode.vehicle.case import Case, check_real
 from antinode.vehicle.condition import OperatingCondition
 
 from .observation_table import read_observations
@@ -100,6 +103,11 @@ class RowBase(Frozen):
     mass_state: str | None = Field(
         default=None, description="name of a mass state of the case, in place of burn_fraction"
     )
+    inputs: dict[str, Quantity] = Field(
+        default={},
+        description="other numbers of the case, or of the beam, as they were in this row, by "
+        "their paths, e.g. {'point_masses.0.mass' = '2 kg'}",
+    )
 
     def settings(self) -> dict[str, float]:
         """Return what the row sets of the condition, SI."""
@@ -142,7 +150,9 @@ class Parameter(Frozen):
     """A number of the case that may change."""
 
     key: str = Field(
-        min_length=1, max_length=200, description="its path, e.g. vehicle.cavitator.diameter"
+        min_length=1,
+        max_length=200,
+        description="its path, e.g. vehicle.cavitator.diameter; of a beam springs.0.translational",
     )
     name: str | None = Field(default=None, max_length=60, description="shown in tables")
     per_row: bool = Field(default=False, description="a value of its own for every row")
@@ -164,7 +174,7 @@ class Distribution(Frozen):
         min_length=1,
         max_length=100,
         description="mass_per_length, mass_per_length:NAME, bending_stiffness, axial_stiffness "
-        "or radius",
+        "or radius; of a beam any column of its stations",
     )
     name: str | None = Field(default=None, max_length=60, description="shown in tables")
     segments: bool = Field(default=False, description="one value for each row of the column")
@@ -251,20 +261,34 @@ class _Choices(Frozen):
 class IdentificationFile(_Choices):
     """The file as it stands in TOML."""
 
-    case: str = Field(min_length=1, description="name of the case file, beside this one")
+    case: str = Field(
+        min_length=1, description="name of the case file, or of a beam file, beside this one"
+    )
     observations: tuple[ObservationRow, ...] = Field(
         min_length=1, description="what was observed: rows, or the name of a CSV file"
     )
 
 
 class IdentificationProblem(ProblemMethods, _Choices):
-    """A case, observations of it, and what of it may change."""
+    """A case or a beam file, observations of it, and what of it may change."""
 
-    case: Annotated[Case, AfterValidator(check_real)] = Field(description="where to start")
+    case: Annotated[Case, AfterValidator(check_real)] | BeamFile = Field(
+        description="where to start"
+    )
     case_text: str = Field(
         default="", repr=False, description="its file, whose comments a fitted case keeps"
     )
     observations: tuple[ObservationRow, ...] = Field(min_length=1, description="what was observed")
+
+    @property
+    def subject(self) -> OfVehicle | OfBeam:
+        """The case or the beam, as what may change asks for it."""
+        return parameters_of(self.case)
+
+
+def parameters_of(case: Case | BeamFile) -> OfVehicle | OfBeam:
+    """Return a case or a beam as what may change asks for it."""
+    return OfBeam(case, table="parameters") if isinstance(case, BeamFile) else subject_of(case)
 
 
 def load_identification(path: str | Path, assignments: Iterable[str] = ()) -> IdentificationProblem:
@@ -285,15 +309,16 @@ def load_identification(path: str | Path, assignments: Iterable[str] = ()) -> Id
     path = Path(path)
     tables, where = read_beside_case(path, assignments, "an identification file")
     elsewhere = {}
-    if isinstance(source := tables.get("observations"), str):
-        elsewhere["observations"] = path.parent / source
-        tables["observations"] = read_observations(path.parent / source)
-    elif source == []:
+    if isinstance(table := tables.get("observations"), str):
+        elsewhere["observations"] = path.parent / table
+        tables["observations"] = read_observations(path.parent / table)
+    elif table == []:
         raise InputError(f"{where}: observations is empty; give one row at the least")
     file = validate(IdentificationFile, tables, where, elsewhere, ("observations",))
+    source = path.parent / file.case
     return IdentificationProblem(
-        case=check_real(load_case(path.parent / file.case)),
-        case_text=toml_source(path.parent / file.case),
+        case=load_subject(source),
+        case_text="" if source.suffix.lower() in TABLES else toml_source(source),
         observations=file.observations,
         **{k: getattr(file, k) for k in _Choices.model_fields},
     )

@@ -1,9 +1,9 @@
-"""Identification: the values of a case's parameters that explain observed frequencies best.
+"""Identification: the values of a case's or a beam's numbers that explain what was observed best.
 
     result = identify(load_identification("identify.toml"))
 
 Minimised is ``sum ((f - f_observed)/sd)^2`` over all rows and modes, plus priors and smoothness, by
-least squares with analytic derivatives (docs/theory/identification.md).
+least squares (docs/theory/identification.md).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from .warnings import fit_warnings
 def identify(
     problem: IdentificationProblem, *, progress: Callable[[str], None] | None = None
 ) -> Identification:
-    """Find the parameters of a case that explain observed frequencies best.
+    """Find the parameters of a case, or of a beam, that explain observed frequencies best.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def prepare(problem: IdentificationProblem) -> Misfit:
     """Turn a problem into residuals with derivatives; refuse what cannot be."""
     rows = gather(problem)
     cases = [row.condition(problem.case) for row in rows]
-    unknowns = make_unknowns(problem, cases, [set(row.settings) for row in rows])
+    unknowns = make_unknowns(problem, cases, [row.numbers for row in rows])
     start = Misfit(unknowns, rows, 1)
     _check_counts(start)
     at_start = start.cases(unknowns.start)

@@ -1,22 +1,24 @@
 """Residuals of an identification and their derivatives, row by row.
 
 A residual is (f - f_observed) / standard deviation. Its derivatives follow from those of omega^2 by
-every number and column that may change (`effects.py`).
+every number and column of a case that may change (`effects.py`); those of a beam, whose springs,
+places and dimensions may change too, are differences.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.families import FamilyName
-from antinode.beam.limits import check_limits
-from antinode.errors import AntinodeError
+from antinode.errors import AntinodeError, ComputationError
 from antinode.modes.hertz import signed_hertz, signed_hertz_slope
+from antinode.study.design.subject import Given
+from antinode.study.differences import rule
 from antinode.study.eigenvalues import CaseEigenvalues, eigenvalues_of
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import EigenvalueDerivatives
@@ -70,7 +72,7 @@ class Misfit:
         """How many frequencies were observed."""
         return sum(len(data.hz) for row in self.rows for data in row.families.values())
 
-    def cases(self, vector: Array) -> list[Case]:
+    def cases(self, vector: Array) -> Sequence[Given]:
         """Return the case of every row."""
         shared = self.unknowns.apply(self.unknowns.case, vector)
         return [
@@ -87,8 +89,6 @@ class Misfit:
             If a row cannot be computed.
         """
         wanted, cases = [row.wanted for row in self.rows], self.cases(vector)
-        for case in cases:
-            check_limits(case.beam())
         solved = eigenvalues_of(cases, wanted, self.refinement)
         pairings = tuple(
             {family: pair(data, one.modes[family]) for family, data in row.families.items()}
@@ -108,6 +108,8 @@ class Misfit:
 
     def jacobian(self, at: Evaluation) -> Array:
         """Return the derivatives of the residuals by the vector."""
+        if not isinstance(self.unknowns.case, Case):
+            return self._by_differences(at)
         slopes = self.unknowns.slopes(at.vector)
         blocks = []
         for k, row in enumerate(self.rows):
@@ -118,6 +120,28 @@ class Misfit:
                 block = derivative.by_vector(family)[index]
                 blocks.append(block * (signed_hertz_slope(omega2) / data.sd)[:, None])
         return np.concatenate(blocks)
+
+    def _by_differences(self, at: Evaluation) -> Array:
+        """Return the derivatives of the residuals as differences; paired modes keep their place."""
+        columns, here = [], self.residuals(at)
+        low, high = self.unknowns.bounds
+        for k, (entry, item) in enumerate(zip(at.vector, self.unknowns.items, strict=True)):
+            size = 1.0 if item.log else min(abs(float(entry)), 1.0) or 1.0
+            places, weights = rule(size, float(entry - low[k]), float(high[k] - entry))
+            moved = [self._moved(at, k, place) for place in places.tolist()]
+            columns.append(weights @ np.stack([*moved, here]))
+        return np.stack(columns, axis=1)
+
+    def _moved(self, at: Evaluation, entry: int, distance: float) -> Array:
+        vector = at.vector.copy()
+        vector[entry] += distance
+        try:
+            return self.residuals(replace(self.evaluate(vector), pairings=at.pairings))
+        except AntinodeError as error:
+            label = self.unknowns.items[entry].label
+            raise ComputationError(
+                f"the derivatives by {label} cannot be had: {error}; give it bounds further off"
+            ) from error
 
 
 @dataclass(frozen=True)
@@ -132,6 +156,7 @@ class RowDerivative:
     @property
     def case(self) -> Case:
         """The case of the row."""
+        assert isinstance(self.solved.case, Case)
         return self.solved.case
 
     def by_vector(self, family: FamilyName) -> Array:

@@ -17,7 +17,8 @@ _MOST = 500
 def read_observations(path: Path) -> list[dict[str, Any]]:
     """Read a table of observations into rows as they would stand in TOML.
 
-    The header names each column with its unit, ``cavitator_angle [deg]``, or without one for SI.
+    The header names each column with its unit, ``cavitator_angle [deg]``, or without one for SI;
+    a name with dots is the path of a number, ``point_masses.0.mass [kg]``.
     An empty cell leaves a condition to the case; an empty frequency was not measured.
 
     Raises
@@ -69,6 +70,8 @@ def _row(cells: list[str], line: int, columns: list[tuple[str, str]], path: Path
         value = f"{cell} {unit}" if cell and unit and _is_number(cell) else cell
         if colon:
             _put(row.setdefault(family, []), int(number), value)
+        elif cell and "." in name:
+            row.setdefault("inputs", {})[name] = _plain(value)
         elif cell:
             row[name] = value if name in _TEXTS else _plain(value)
     return row

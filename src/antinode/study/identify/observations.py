@@ -9,22 +9,24 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from antinode.arrays import Array, Integers
 from antinode.beam.families import FAMILIES, FamilyName
+from antinode.beam.file import BeamFile
 from antinode.beam.limits import check_limits
 from antinode.errors import AntinodeError, InputError
 from antinode.inputs.explain import validate
-from antinode.text import nearest
+from antinode.inputs.places import Keys
+from antinode.inputs.units import to_si
+from antinode.study.design.subject import Changed, Given, subject_of, with_value
+from antinode.text import nearest, short
 from antinode.vehicle.case import Case
 from antinode.vehicle.condition import OperatingCondition
 from antinode.vehicle.derivatives import ChainModes
-from antinode.vehicle.numbers import replaced
 
-from .file import Fit, IdentificationProblem, RowBase, ShapeRow
+from .file import Fit, IdentificationProblem, RowBase, ShapeRow, parameters_of
 
 RELATIVE_SD = 1e-3
 """Taken to weigh frequencies where no standard deviation is given; the noise is then estimated."""
@@ -63,14 +65,14 @@ class RowData:
     Attributes
     ----------
     label : str
-    settings : dict
-        What it sets of the condition, SI.
+    numbers : dict
+        What it sets of the condition, and of all else, SI, by keys.
     families : dict
         `FamilyData` by family.
     """
 
     label: str
-    settings: Mapping[str, float]
+    numbers: Mapping[Keys, float]
     families: Mapping[FamilyName, FamilyData]
 
     @property
@@ -78,14 +80,11 @@ class RowData:
         """How many modes of each family must be computed."""
         return {family: data.wanted for family, data in self.families.items()}
 
-    def condition(self, base: Case) -> Case:
+    def condition(self, base: Changed) -> Changed:
         """Return a case in the row's condition."""
-        if not self.settings:
-            return base
-        condition = OperatingCondition.model_construct(
-            **{**base.condition.__dict__, **self.settings}
-        )
-        return replaced(base, ("condition",), condition)
+        for keys, value in self.numbers.items():
+            base = with_value(base, keys, value)
+        return base
 
 
 def gather(problem: IdentificationProblem) -> tuple[RowData, ...]:
@@ -113,9 +112,7 @@ def noise_is_known(problem: IdentificationProblem) -> bool:
 def _row(problem: IdentificationProblem, row: RowBase, number: int) -> RowData:
     label = row.name or f"row {number}"
     where = f"observations, row {number}"
-    settings = row.settings() | _mass_state(problem.case, row, where)
-    tables = problem.case.condition.model_dump() | settings
-    validate(OperatingCondition, tables, where)
+    numbers = _condition(problem.case, row, where) | _inputs(problem.case, row, where)
     families: dict[FamilyName, FamilyData] = {}
     for family in FAMILIES:
         found = _family(row, family, problem.fit, where)
@@ -124,7 +121,40 @@ def _row(problem: IdentificationProblem, row: RowBase, number: int) -> RowData:
     if not families:
         say = "give at least one, e.g. bending = [3.2, 10.5]"
         raise InputError(f"{where} ({label}) has no frequency; {say}")
-    return RowData(label, settings, families)
+    return RowData(label, numbers, families)
+
+
+def _condition(case: Given, row: RowBase, where: str) -> dict[Keys, float]:
+    """Return what a row sets of the condition."""
+    settings = row.settings()
+    if isinstance(case, BeamFile):
+        if settings or row.mass_state is not None:
+            name = next(iter(settings), "mass_state")
+            say = "name what was otherwise by its path: inputs = { 'point_masses.0.mass' = '2 kg' }"
+            raise InputError(f"{where}: {name}: a beam has no operating condition; {say}")
+        return {}
+    settings |= _mass_state(case, row, where)
+    validate(OperatingCondition, case.condition.model_dump() | settings, where)
+    return {("condition", key): value for key, value in settings.items()}
+
+
+def _inputs(case: Given, row: RowBase, where: str) -> dict[Keys, float]:
+    """Return what a row sets by path."""
+    found: dict[Keys, float] = {}
+    for path, quantity in row.inputs.items():
+        try:
+            place = parameters_of(case).place(path)
+            value = to_si(quantity, place.unit)
+        except (InputError, ValueError) as error:
+            told = str(error).partition(": ")[2] if isinstance(error, InputError) else error
+            raise InputError(f"{where}: inputs, {short(path)}: {told}") from error
+        low, high = place.low, place.high
+        if not (low < value if place.strict else low <= value) or not value <= high:
+            raise InputError(
+                f"{where}: {path} is {value:g}; {low:g} to {high:g} is allowed: correct it"
+            )
+        found[place.keys] = value
+    return found
 
 
 def _mass_state(case: Case, row: RowBase, where: str) -> dict[str, float]:
@@ -167,13 +197,15 @@ def _deviation(row: RowBase, fit: Fit, hz: Array) -> Array:
     return RELATIVE_SD * hz
 
 
-def _check_duplicates(case: Case, rows: Sequence[RowData]) -> None:
+def _check_duplicates(case: Given, rows: Sequence[RowData]) -> None:
     seen: dict[str, int] = {}
+    own = {} if isinstance(case, BeamFile) else case.condition.model_dump()
     for number, row in enumerate(rows, 1):
-        condition: dict[str, Any] = case.condition.model_dump() | dict(row.settings)
+        set_here = {".".join(map(str, keys)): value for keys, value in row.numbers.items()}
+        condition = {f"condition.{key}": value for key, value in own.items()} | set_here
         for family, data in row.families.items():
             for mode in data.numbers.tolist():
-                key = json.dumps([condition, family, mode])
+                key = json.dumps([sorted(condition.items()), family, mode])
                 if key in seen:
                     say = "remove one of them, or their mean in one row"
                     wrong = f"observations: row {number} repeats {family} {mode} of row {seen[key]}"
@@ -222,7 +254,7 @@ def _likeness(shape: ShapeRow, modes: ChainModes) -> Array:
     return np.asarray((u @ v) ** 2 / ((u @ u) * np.sum(v * v, axis=0)))
 
 
-def check_start(rows: Sequence[RowData], cases: Sequence[Case]) -> None:
+def check_start(rows: Sequence[RowData], cases: Sequence[Given]) -> None:
     """Raise InputError, naming the row, if a row has no loads or no beam at the start."""
     for number, case in enumerate(cases, 1):
         try:
@@ -230,8 +262,9 @@ def check_start(rows: Sequence[RowData], cases: Sequence[Case]) -> None:
         except AntinodeError as error:
             raise type(error)(f"observations, row {number}: {error}") from error
     for number, (row, case) in enumerate(zip(rows, cases, strict=True), 1):
+        start, end = subject_of(case).x[[0, -1]].tolist()
         for data in row.families.values():
             for shape in data.shapes.values():
-                if not 0 <= min(shape.x) <= max(shape.x) <= case.vehicle.length:
-                    say = f"must lie on the body, within 0 and {case.vehicle.length:g} m"
+                if not start <= min(shape.x) <= max(shape.x) <= end:
+                    say = f"must lie on the body, within {start:g} and {end:g} m"
                     raise InputError(f"observations, row {number}: x of a shape {say}")

@@ -12,7 +12,7 @@ import numpy as np
 from antinode.beam.families import FamilyName
 from antinode.errors import InputError
 from antinode.methods import IdentificationMethods
-from antinode.vehicle.case import Case
+from antinode.study.design.subject import Given, subject_of
 
 from .estimates import Estimates
 from .file import IdentificationProblem
@@ -32,7 +32,7 @@ class Comparison:
         From 1.
     label : str
         Of the row.
-    family : {"bending", "longitudinal"}
+    family : {"bending", "longitudinal", "torsion"}
     number : int
         Of the observed mode.
     paired : int
@@ -121,8 +121,8 @@ class Identification(IdentificationMethods):
     Attributes
     ----------
     problem : IdentificationProblem
-    case : Case
-        With the values found, in the condition of the case file.
+    case : Case or BeamFile
+        With the values found, in the condition of its file.
     estimates : Estimates
         Covariance and what follows from it.
     comparisons : tuple of Comparison
@@ -137,7 +137,7 @@ class Identification(IdentificationMethods):
     """
 
     problem: IdentificationProblem
-    case: Case
+    case: Given
     estimates: Estimates = field(repr=False)
     comparisons: tuple[Comparison, ...] = field(repr=False)
     starts: tuple[Start, ...]
@@ -146,6 +146,11 @@ class Identification(IdentificationMethods):
     evaluations: int
     seconds: float
     warnings: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """Of the vehicle or the beam."""
+        return subject_of(self.case).name
 
     @property
     def unknowns(self) -> Unknowns:
@@ -189,7 +194,7 @@ class Identification(IdentificationMethods):
         have = ", ".join(item.name for item in self.parameters[:20])
         raise InputError(f"there is no parameter '{name[:60]}' in this result; it has {have}")
 
-    def row_case(self, row: int) -> Case:
+    def row_case(self, row: int) -> Given:
         """Return the fitted case in the condition of a row (from 1), its own values included."""
         rows = gather(self.problem)
         if not 1 <= row <= len(rows):
@@ -210,7 +215,7 @@ class Identification(IdentificationMethods):
         e = self.estimates
         return {
             "schema_version": 1,
-            "name": self.case.vehicle.name,
+            "name": self.name,
             "interrupted": self.interrupted,
             "cost": self.cost,
             "worst_relative": self.worst_relative,

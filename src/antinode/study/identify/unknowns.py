@@ -7,7 +7,7 @@ compare. Priors and smoothness are residuals beside those of the data.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -15,17 +15,18 @@ from typing import NamedTuple
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.file import BeamFile
 from antinode.errors import InputError
-from antinode.inputs.places import Place
+from antinode.inputs.places import Keys, Place, wrong_key
+from antinode.inputs.reading import COLUMN_UNITS
 from antinode.inputs.units import to_si
+from antinode.study.design.subject import Changed, Given, OfBeam, OfVehicle, with_value
 from antinode.text import short
-from antinode.vehicle.case import Case
-from antinode.vehicle.columns import column_values, with_column
-from antinode.vehicle.numbers import replaced, value_at
+from antinode.vehicle.numbers import value_at
 from antinode.vehicle.paths import find_place
 
 from .columns import Column, make_column, second_differences
-from .file import Distribution, IdentificationProblem, Parameter, Quantity
+from .file import Distribution, IdentificationProblem, Parameter, Quantity, parameters_of
 
 
 class Unknown(NamedTuple):
@@ -109,7 +110,7 @@ class Unknowns:
 
     Attributes
     ----------
-    case : Case
+    case : Case or BeamFile
         Where it starts.
     items : tuple of Unknown
     scalars : tuple of Scalar
@@ -117,7 +118,7 @@ class Unknowns:
         Each after the one that it is relative to.
     """
 
-    case: Case
+    case: Given
     items: tuple[Unknown, ...]
     scalars: tuple[Scalar, ...]
     columns: tuple[ColumnEntries, ...]
@@ -154,29 +155,32 @@ class Unknowns:
         return found
 
     def _given(self, key: str) -> Array:
-        return column_values(self.case.vehicle.stations, tuple(key.split(":")))
+        return self.subject.values((*self.subject.stations, *key.split(":")))
 
-    def apply(self, case: Case, vector: Array) -> Case:
+    @cached_property
+    def subject(self) -> OfVehicle | OfBeam:
+        """The case as paths and columns ask for it."""
+        return parameters_of(self.case)
+
+    def apply(self, case: Changed, vector: Array) -> Changed:
         """Return a case with all that is common to the rows."""
-        logarithms = self.logarithms(vector)
-        vehicle = case.vehicle
-        for item in self.columns:
-            column = np.exp(logarithms[item.column.key])
-            vehicle = with_column(vehicle, item.column.keys, column)
-        if self.columns:
-            case = replaced(case, ("vehicle",), vehicle)
+        logarithms, stations = self.logarithms(vector), self.subject.stations
+        keys = [(*stations, *item.column.keys) for item in self.columns]
+        columns = [np.exp(logarithms[item.column.key]) for item in self.columns]
+        for place, column in zip(keys, columns, strict=True):
+            case = with_value(case, place, column)
         return self._with_scalars(case, vector, per_row=False, row=0)
 
-    def apply_row(self, case: Case, vector: Array, row: int) -> Case:
+    def apply_row(self, case: Changed, vector: Array, row: int) -> Changed:
         """Return a case with what belongs to one row."""
         return self._with_scalars(case, vector, per_row=True, row=row)
 
-    def _with_scalars(self, case: Case, vector: Array, *, per_row: bool, row: int) -> Case:
+    def _with_scalars(self, case: Changed, vector: Array, *, per_row: bool, row: int) -> Changed:
         for scalar in self.scalars:
             if scalar.per_row == per_row:
                 k = scalar.entry(row)
                 value = self.items[k].value(float(vector[k]))
-                case = replaced(case, scalar.place.keys, value)
+                case = with_value(case, scalar.place.keys, value)
         return case
 
     def prior_residuals(self, vector: Array) -> Array:
@@ -209,17 +213,17 @@ class Unknowns:
 
 
 def make_unknowns(
-    problem: IdentificationProblem, cases: Sequence[Case], settings: Sequence[set[str]]
+    problem: IdentificationProblem, cases: Sequence[Given], own: Sequence[Collection[Keys]]
 ) -> Unknowns:
     """Gather the unknowns of a problem.
 
     Parameters
     ----------
     problem : IdentificationProblem
-    cases : sequence of Case
+    cases : sequence of Case or BeamFile
         The case in the condition of every row.
-    settings : sequence of set of str
-        What each row sets of the condition.
+    own : sequence of collection of keys
+        What each row sets.
 
     Raises
     ------
@@ -229,7 +233,7 @@ def make_unknowns(
     items: list[Unknown] = []
     scalars, columns = [], []
     for parameter in problem.parameters:
-        scalar, found = _scalar(problem.case, parameter, cases, settings, len(items))
+        scalar, found = _scalar(problem.case, parameter, cases, own, len(items))
         scalars.append(scalar)
         items += found
     ordered = _parents_first(problem)
@@ -241,22 +245,22 @@ def make_unknowns(
         keep = smoothing if given.smoothness else np.zeros((0, len(found)))
         columns.append(ColumnEntries(column, entries, keep))
         items += found
-    _check_unique(scalars, columns)
+    _check_unique(scalars, columns, problem.subject.stations)
     if not items:
         raise InputError("nothing may change: give [[parameters]] or [[distributions]]")
     return Unknowns(problem.case, tuple(items), tuple(scalars), tuple(columns))
 
 
 def _scalar(
-    case: Case,
+    case: Given,
     given: Parameter,
-    cases: Sequence[Case],
-    settings: Sequence[set[str]],
+    cases: Sequence[Given],
+    own: Sequence[Collection[Keys]],
     first: int,
 ) -> tuple[Scalar, list[Unknown]]:
-    place = find_place(case, given.key)
-    rows = [k for k, keys in enumerate(settings) if place.keys[-1] in keys]
-    if place.keys[0] == "condition" and rows and not given.per_row:
+    place = place_of(case, given.key)
+    rows = [k for k, keys in enumerate(own) if place.keys in keys]
+    if rows and not given.per_row:
         say = "leave it out of the observations, or give the parameter per_row = true"
         name = place.keys[-1]
         raise InputError(
@@ -271,7 +275,24 @@ def _scalar(
     return Scalar(place, True, tuple(range(first, first + len(found)))), found
 
 
-def _unknown(given: Parameter, place: Place, label: str, case: Case) -> Unknown:
+def place_of(case: Given, path: str) -> Place:
+    """Find a number that may change, by its path.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    if not isinstance(case, BeamFile):
+        return find_place(case, path)
+    subject = OfBeam(case, table="parameters")
+    place = subject.place(path)
+    if why := subject.without_effect(place.keys):
+        raise InputError(f"{wrong_key(path)} changes nothing: {why}")
+    return place
+
+
+def _unknown(given: Parameter, place: Place, label: str, case: Given) -> Unknown:
     where = f"parameters: key = '{given.key}'"
 
     def si(quantity: Quantity | None, name: str) -> float | None:
@@ -283,7 +304,7 @@ def _unknown(given: Parameter, place: Place, label: str, case: Case) -> Unknown:
             raise InputError(f"{where}: {name} is {short(quantity)}; {error}") from error
 
     start = si(given.start, "start")
-    start = value_at(case, place.keys) if start is None else start
+    start = value_at(parameters_of(case).tree, place.keys) if start is None else start
     if start is None:
         raise InputError(f"{where} has no value in the case; give it there, or a start here")
     lower, upper = _bounds(si(given.lower, "lower"), si(given.upper, "upper"), place, where)
@@ -369,7 +390,8 @@ def _column_unknowns(column: Column, given: Distribution) -> Iterator[Unknown]:
             "the bounds are factors on the start and exclude it: lower is at most 1, upper at least"
         )
         raise InputError(f"distributions: {given.column}: {low:g} to {high:g}; {say} 1")
-    unit = "" if given.fitted == "factor" or given.relative_to else _UNITS[str(column.keys[0])]
+    unit = COLUMN_UNITS.get(str(column.keys[0]), "")
+    unit = "" if given.fitted == "factor" or given.relative_to else unit
     sd = given.prior_sd or math.inf
     size = sd if math.isfinite(sd) else 1.0
     for x, q in zip(column.points, column.start, strict=True):
@@ -379,24 +401,15 @@ def _column_unknowns(column: Column, given: Distribution) -> Iterator[Unknown]:
         yield Unknown(label, unit, True, start, *bounds, size, start, sd, True)
 
 
-_UNITS = {
-    "mass_per_length": "kg/m",
-    "bending_stiffness": "N m^2",
-    "axial_stiffness": "N",
-    "radius": "m",
-    "torsional_stiffness": "N m^2",
-    "polar_inertia_per_length": "kg m",
-}
-
-
-def _check_unique(scalars: Sequence[Scalar], columns: Sequence[ColumnEntries]) -> None:
+def _check_unique(
+    scalars: Sequence[Scalar], columns: Sequence[ColumnEntries], stations: Keys
+) -> None:
     names = [s.place.text for s in scalars] + [c.column.key for c in columns]
     for name in names:
         if names.count(name) > 1:
             raise InputError(f"{name} may change by two entries; remove one of them")
-    keys = {c.column.keys for c in columns}
+    keys = {(*stations, *c.column.keys) for c in columns}
     for scalar in scalars:
-        inside = scalar.place.keys[2:-1]
-        if scalar.place.keys[:2] == ("vehicle", "stations") and inside in keys:
+        if scalar.place.keys[:-1] in keys:
             say = "it is part of a distribution already: remove one of them"
             raise InputError(f"parameters: key = '{scalar.place.text}'; {say}")

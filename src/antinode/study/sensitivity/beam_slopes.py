@@ -1,7 +1,6 @@
-"""Derivatives by the inputs of a study, by differences of fourth order: frequencies, responses.
+"""Derivatives by the inputs of a study, by differences: frequencies, responses.
 
-``f' = (8 (f(h) - f(-h)) - (f(2 h) - f(-2 h))) / (12 h)``, at a bound of the input on one side; the
-frequencies are solved to a relative 1e-10. Every input of a beam file has one so: places,
+The frequencies are solved to a relative 1e-10. Every input of a beam file has one so: places,
 compliances, shares of end forces, dimensions.
 """
 
@@ -15,13 +14,10 @@ from antinode.arrays import Array
 from antinode.study.cases.chunks import mode_names, solve_values
 from antinode.study.design.points import Points
 from antinode.study.design.variables import Variable
+from antinode.study.differences import rule
 
-_STEP = 2e-3  # of a value; of an input of 0, of its SI unit
 _TOLERANCE = 1e-10
 _RESPONSE_TOLERANCE = 1e-8
-_CENTRAL = np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0, 0.0]) / 12
-_FORWARD = np.array([1.0, 2.0, 3.0, 4.0]), np.array([48.0, -36.0, 16.0, -3.0, -25.0]) / 12
-"""Places in steps, and weights of the frequencies there and, last, at the beam itself."""
 
 
 def beam_slopes(points: Points) -> dict[str, tuple[float, Array]]:
@@ -60,19 +56,11 @@ def _slopes(points: Points, numbers: Callable[[Points, Array], Array]) -> tuple[
 
 
 def _rule(variable: Variable, start: float) -> tuple[Array, Array]:
-    """Return how far from its value an input is moved, and weights: on one side at a bound."""
+    """Return how far from its value an input is moved, and weights; 0 has the size of its unit."""
     place, size = variable.place, abs(start) or 1.0
     if place is None or variable.given.factor:
-        below, above = size, np.inf
-    else:
-        below, above = start - place.low, place.high - start
-    (places, weights), room = (
-        (_CENTRAL, min(below, above) / 3) if min(below, above) > 0 else (_FORWARD, above / 5)
-    )
-    if room <= 0 < below:
-        (places, weights), room = (-_FORWARD[0], -_FORWARD[1]), below / 5
-    step = min(_STEP * size, room)
-    return places * step, weights / step
+        return rule(size, size, np.inf)
+    return rule(size, start - place.low, place.high - start)
 
 
 def _frequencies(points: Points, values: Array) -> Array:

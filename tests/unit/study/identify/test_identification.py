@@ -391,7 +391,7 @@ def test_a_case_survives_being_written(case, tmp_path):
         }
     )
     (tmp_path / "case.toml").write_text(case_toml(strange, "# x\n"), encoding="utf-8")
-    text = stations_csv(case.vehicle.stations, "step")
+    text = stations_csv(strange)
     (tmp_path / "stations.csv").write_text(text, encoding="utf-8")
     back = an.load_case(tmp_path / "case.toml")
     assert back.condition == case.condition
