@@ -9,8 +9,8 @@ from antinode.beam.ends import Ends
 from antinode.response.damping import Damping
 from antinode.response.frequency import Model, frequency_response
 from antinode.response.histories import History, half_sine, step
+from antinode.response.motion.recurrence import move, phi
 from antinode.response.quantities import Base, Force, Output
-from antinode.response.recurrence import move, phi
 from antinode.response.shock import srs
 from antinode.response.transient import peaks_of, respond
 

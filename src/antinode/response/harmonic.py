@@ -10,6 +10,7 @@ import numpy as np
 from antinode.arguments import ByValue
 from antinode.arrays import Array, Numbers
 from antinode.beam.beam import Beam
+from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.methods import ResponseMethods
 
@@ -19,10 +20,12 @@ from .file import Problem
 from .frequency import Model
 from .modal import Basis, basis, modes_below, orthogonal, without_orthogonality
 from .modal_sum import modal_response
+from .motion.loops import resonant
 from .numbers import plain
 from .peaks import Peak, find_peaks, with_resonances
 from .quantities import Drive, Output
 
+_DOUBTFUL = 0.5  # half-widths of a resonance
 _ABOVE = 1.2  # of the highest frequency up to which resonances are looked up
 
 
@@ -144,26 +147,33 @@ def output_keys(output: Output) -> dict[str, Any]:
 def bases(model: Model) -> tuple[Basis, ...]:
     """Return all modes up to a model's highest frequency, as a basis, of each driven family.
 
-    Where an end force follows, or something feeds back, they are those of a beam near by.
+    Where an end force follows, or something feeds back, they are those of a beam near by, with
+    the frequencies and ratios of the complex modes.
     """
     beam, backend = orthogonal(model.beam), model.backend
     number = {
         family: modes_below(beam, family, _ABOVE * model.highest_hz, backend) + 1
         for family in dict.fromkeys(drive.family for drive in model.drives)
     }
-    return tuple(
+    found = (
         basis(beam, family, count, model.drives, model.outputs, model.damping, backend)
         for family, count in number.items()
+    )
+    coupled = bool(without_orthogonality(model.beam)) and not model.damping.modal
+    return tuple(
+        resonant(model, own) if coupled and family == BENDING else own
+        for family, own in zip(number, found, strict=True)
     )
 
 
 def resonance_warnings(beam: Beam, modes: tuple[Basis, ...], low: float, high: float) -> list[str]:
-    """Say which modes in a band have no damping, and if peaks are looked for by others near by."""
+    """Say which modes in a band have no damping, and if resonances are not known well enough."""
     why = without_orthogonality(beam)
-    if why:
+    if why and any(own.doubt > _DOUBTFUL for own in modes):
         return [
-            f"{why}: the response is exact, but peaks are looked for by the modes of a beam "
-            "without that, and named by them; a narrow one may be missed"
+            f"{why}: the response is exact, but its resonances are known to "
+            f"{max(own.doubt for own in modes):.1g} of their half-widths only; a peak narrower "
+            "than the frequencies are apart may be missed: give more of them"
         ]
     names = [
         name

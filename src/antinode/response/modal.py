@@ -53,6 +53,10 @@ class Basis:
         c: each output's component of the state of each mode, relative to the ground.
     drag : array, shape (outputs, n)
         What each output takes of the rate of each mode: a reaction, by the dashpots there.
+    coupling : array, shape (n, n), optional
+        What modes pull each other with besides, where forces depend on motion [rad^2/s^2].
+    doubt : float
+        How far a frequency may be from its resonance, in half-widths of it, at most.
     """
 
     names: tuple[str, ...]
@@ -61,6 +65,8 @@ class Basis:
     drives: Array
     outputs: Array
     drag: Array
+    coupling: Array | None = None
+    doubt: float = 0.0
 
     def chosen(self, which: Integers) -> Basis:
         """Return some of its modes."""
@@ -187,9 +193,10 @@ def basis(
     why = without_orthogonality(beam)
     if why:
         raise InputError(
-            f"{why}: the modes are not orthogonal, and no sum of them is a response; ask for a "
-            "harmonic or random one with a loss factor, or leave that out: left_follower and "
-            'right_follower 0, point feedback; of a vehicle end_force = "fixed_direction", '
+            f"{why}: the modes are not orthogonal, and no plain sum of them is a response or a "
+            "state space; give a loss factor in place of ratios of modes, or leave that out: "
+            "left_follower and right_follower 0, point feedback; of a vehicle "
+            'end_force = "fixed_direction", '
             'hydrodynamic_stiffness = "none"'
         )
     result = solved_modes(beam, family, modes, backend)

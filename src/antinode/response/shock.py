@@ -26,9 +26,9 @@ from .file import Problem
 from .frequency import Model, checked_frequencies
 from .harmonic import output_keys
 from .modal import Basis
+from .motion.recurrence import phi
 from .numbers import plain
 from .quantities import Drive, Output
-from .recurrence import phi
 from .transient import histories_of, respond, slow_warnings
 
 _PER_PERIOD = 40  # points of the record in a period of the oscillator, at least

@@ -73,9 +73,11 @@ def solve_response(problem: Problem | str | Path) -> Result:
         )
     result = _solved(own)
     if growing:
-        told = (
-            f"the body is not stable under its axial force, dampers and feedback ({names}): what "
-            "is shown is the forced part alone, which never comes by itself"
+        over_time = own.file.response.kind in ("transient", "shock")
+        told = f"the body is not stable under its axial force, dampers and feedback ({names}): " + (
+            "it grows on from what is shown"
+            if over_time
+            else "what is shown is the forced part alone, which never comes by itself"
         )
         result = replace(result, warnings=(told, *result.warnings))
     return result

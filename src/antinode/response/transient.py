@@ -26,9 +26,10 @@ from .harmonic import output_keys
 from .histories import History, history_from
 from .modal import MOST_MODES, Basis
 from .modal_sum import Summed
+from .motion.loops import Closed, summed
+from .motion.recurrence import move, move_coupled, move_together, twice_integrated
 from .numbers import plain
 from .quantities import Base, Drive, Output
-from .recurrence import move, move_together, twice_integrated
 
 _FIRST = 16  # modes of each family that one begins with
 _MOST = 160
@@ -140,17 +141,20 @@ class Histories:
 
     Parameters
     ----------
-    summed : Summed
+    summed : Summed or Closed
         Modes of one family with their static rest.
     driven : Driven
     """
 
-    def __init__(self, summed: Summed, driven: Driven) -> None:
+    def __init__(self, summed: Summed | Closed, driven: Driven) -> None:
         self.summed, self.driven = summed, driven
         own = summed.basis
         start, end = driven.start @ own.drives.T, driven.end @ own.drives.T
         C = own.damping
-        if np.any(C - np.diag(np.diag(C))):
+        if own.coupling is not None:
+            K = np.diag(own.omega2) + own.coupling
+            self.motion = move_coupled(K, C, own.drives, driven.time_s, driven.start, driven.end)
+        elif np.any(C - np.diag(np.diag(C))):
             self.motion = move_together(own.omega2, C, driven.time_s, start, end)
         else:
             self.motion = move(own.omega2, np.diag(C), driven.time_s, start, end)
@@ -180,14 +184,16 @@ class Histories:
     def acceleration(self) -> Array:
         """Accelerations of the modal coordinates, (times, n)."""
         own = self.summed.basis
-        return np.asarray(
-            self.force - self.motion.rate @ own.damping.T - self.motion.q * own.omega2
-        )
+        pulled = self.motion.q * own.omega2
+        if own.coupling is not None:
+            pulled = pulled + self.motion.q @ own.coupling.T
+        return np.asarray(self.force - self.motion.rate @ own.damping.T - pulled)
 
-    def left_out(self) -> Array:
-        """Return what modes beyond the last may still change, (outputs,).
+    def left_out(self, values: Array) -> Array:
+        """Return what modes beyond the last may still change of `values`, (outputs,).
 
-        `_TAIL` times the sum of the largest that each of the upper half does beyond its rest.
+        `_TAIL` times the sum of the largest that each of the upper half does beyond its rest; where
+        forces depend on motion at least what the upper half changes altogether.
         """
         own, driven, shift = self.summed.basis, self.driven, self.summed.shift
         upper = np.argsort(own.omega2, kind="stable")[len(own.omega2) // 2 :]
@@ -198,7 +204,11 @@ class Histories:
             np.max(np.abs(self.acceleration[:, upper]), axis=0),
         ]
         size = np.array([most[output.rate] for output in self.summed.model.outputs])
-        return np.asarray(_TAIL * np.sum(np.abs(own.outputs[:, upper]) * size, axis=1))
+        tail = _TAIL * np.sum(np.abs(own.outputs[:, upper]) * size, axis=1)
+        if not isinstance(self.summed, Closed):
+            return np.asarray(tail)
+        few = Histories(self.summed.half, driven).values()
+        return np.asarray(np.maximum(tail, np.max(np.abs(values - few), axis=1)))
 
     def _ground(self) -> tuple[Array, Array, Array]:
         """Return displacement, velocity and acceleration of the ground."""
@@ -245,9 +255,10 @@ def respond(
     for family in model.families:
         number = modes or _FIRST
         while True:
-            own = Histories(Summed(model, family, number), driven)
+            own = Histories(summed(model, family, number), driven)
             n = len(own.summed.basis.omega2)
-            part, wrong = own.values(), own.left_out()
+            part = own.values()
+            wrong = own.left_out(part)
             peak = np.max(np.abs(part), axis=1)
             if modes or np.all(wrong <= _WANTED * peak) or 2 * number > min(_MOST, MOST_MODES):
                 break
@@ -259,7 +270,7 @@ def respond(
     return y, error + chords, chords, driven, tuple(bases), count
 
 
-def _chords(summed: Summed, histories: tuple[History, ...]) -> Array:
+def _chords(summed: Summed | Closed, histories: tuple[History, ...]) -> Array:
     """Return how far chords may move outputs: each mode doubles at most what it does at rest."""
     own, model = summed.basis, summed.model
     chord = np.array([h.chord for h in histories])

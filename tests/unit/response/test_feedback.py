@@ -1,4 +1,4 @@
-"""Responses of beams on which something feeds back: dense elements; histories are refused."""
+"""Responses of beams on which something feeds back: dense elements, histories, what is refused."""
 
 import numpy as np
 import pytest
@@ -39,7 +39,12 @@ def test_a_feedback_of_any_matrix(share):
     wanted = [dense.by_force(2 * np.pi * f, 1.0)[dense.dof(0.3)] for f in HERTZ]
     assert np.max(np.abs(result.values[0] - wanted)) < 1e-6 * np.max(np.abs(wanted))
     assert np.all(np.abs(result.values[0] - wanted) <= result.error[0] + 1e-10)
-    assert "a feedback acts" in " ".join(result.warnings)
+    assert not result.warnings
+    (own,) = result.modes  # what peaks are looked for by: the complex modes
+    lossless = beam(share, feedback)
+    found = an.solve_modes(lossless, 3, families=["bending"], damping="complex").modes
+    exact = [mode.frequency_hz for mode in found if mode.kind == "elastic"]
+    np.testing.assert_allclose(own.frequency_hz[: len(exact)], exact, rtol=1e-3)
 
 
 def test_peaks_are_those_of_a_spring_and_a_dashpot():
@@ -51,12 +56,36 @@ def test_peaks_are_those_of_a_spring_and_a_dashpot():
     assert not one.warnings
 
 
-def test_histories_are_refused_with_what_to_do():
-    step = {"shape": "half_sine", "height": 1.0, "duration": "0.1 s"}
-    with pytest.raises(an.InputError, match=r"a feedback acts.*harmonic or random"):
+STEP = {"shape": "half_sine", "height": 1.0, "duration": "0.1 s"}
+
+
+def test_a_history_has_what_the_feedback_does():
+    """A feedback that is a spring and a dashpot gives the history of these."""
+    both = an.Spring(0.6, translational=40.0), an.Dashpot(0.6, translational=0.6)
+    turned = an.PointFeedback.of(0.6, [[40.0, 1e-9], [0.0, 0.0]], [[0.6, 0.0], [0.0, 0.0]])
+    asked = {
+        "forces": [{"x": 1.0, "direction": "lateral", "history": STEP}],
+        "outputs": ASKED["outputs"],
+        "time": {"to": "1 s", "step": "0.01 s"},
+    }
+    one, other = (beam(0.0, *items).response("transient", **asked) for items in (both, [turned]))
+    size = np.max(np.abs(one.values))
+    assert np.max(np.abs(one.values - other.values)) < 1e-8 * size
+    assert other.error[0] < 1e-3 * size
+
+
+def test_moving_supports_are_refused_with_what_to_do():
+    with pytest.raises(an.InputError, match=r"the supports move and something feeds back"):
         beam(0.0, an.PointFeedback.of(0.6, K, C)).response(
             "transient",
-            forces=[{"x": 1.0, "direction": "lateral", "history": step}],
+            base={"motion": "acceleration", "history": STEP},
             outputs=ASKED["outputs"],
             time={"to": "1 s", "step": "0.01 s"},
+        )
+
+
+def test_ratios_of_modes_are_refused_with_what_to_do():
+    with pytest.raises(an.InputError, match=r"a feedback acts.*give a loss factor"):
+        beam(0.0, an.PointFeedback.of(0.6, K, C)).response(
+            "harmonic", **(ASKED | {"damping": {"modal": [0.01]}})
         )

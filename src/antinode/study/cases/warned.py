@@ -45,13 +45,13 @@ _LAST = 62
 
 RESPONSE_MESSAGES = (
     ("the body is not stable", "the body is not stable under its axial force, dampers and "
-     "feedback: the response is the forced part alone, which never comes by itself"),
+     "feedback: a response over frequency is the forced part alone, which never comes by itself"),
     ("the force of an end turns", "the force of an end turns with it: the response is exact, but "
-     "peaks are looked for by the modes of a force of fixed direction; a narrow one may be missed"),
+     "its resonances are not known well enough for every peak; a narrow one may be missed"),
     ("no damping", "no damping: at a resonance the response grows without bound, and only how near "
      "a frequency comes to it limits it"),
     ("a feedback acts", "a feedback acts, as the water's stiffness does: the response is exact, "
-     "but peaks are looked for by the modes of a beam without it; a narrow one may be missed"),
+     "but its resonances are not known well enough for every peak; a narrow one may be missed"),
     ("modes left out", "modes left out still change some histories by more than 0.5 %: see the "
      "errors of the response"),
     ("", "the response warns of something: 'antinode response' of that case alone tells it"),

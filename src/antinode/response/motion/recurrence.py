@@ -142,3 +142,54 @@ def move_together(omega2: Array, damping: Array, time_s: Array, start: Array, en
     z = integrate_first_order(roots, time_s, start @ into.T, end @ into.T)
     x = (z @ V.T).real
     return Motion(x[:, :n], x[:, n:])
+
+
+def companion(stiffness: Array, damping: Array) -> tuple[Array, Array]:
+    """Return A of ``z' = A z`` for ``q'' + C q' + K q = 0``, ``z = (w q, q')``, and w."""
+    n = len(stiffness)
+    w = np.sqrt(np.abs(np.diag(stiffness)))
+    w = np.maximum(w, np.min(w[w > 1e-6 * np.max(w)], initial=np.inf if np.any(w) else 1.0))
+    w = np.where(np.isfinite(w), w, 1.0)
+    A = np.zeros((2 * n, 2 * n))
+    A[:n, n:], A[n:, :n], A[n:, n:] = np.diag(w), -stiffness / w, -damping
+    return A, w
+
+
+def move_coupled(
+    stiffness: Array, damping: Array, into: Array, time_s: Array, start: Array, end: Array
+) -> Motion:
+    """Return coordinates ``q'' + C q' + K q = into f`` of modes that anything couples, from rest.
+
+    By exponentials of the whole matrix, one for each length of a step: no eigenvectors, so that
+    motions at rest may be as defective as they are where ends follow.
+
+    Parameters
+    ----------
+    stiffness, damping : array, shape (n, n)
+        K [rad^2/s^2] and C [1/s], of any kind.
+    into : array, shape (n, forces)
+    time_s : array, shape (t,)
+    start, end : array, shape (t - 1, forces)
+        f at the beginning and the end of every step.
+    """
+    from scipy.linalg import expm
+
+    (n, forces), h = into.shape, np.diff(time_s)
+    A, w = companion(stiffness, damping)
+    B = np.vstack([np.zeros((n, forces)), into])
+    lengths, which = np.unique(np.round(h / np.max(h), 12), return_inverse=True)
+    z, change = np.zeros((len(time_s), 2 * n)), end - start
+    steps = []
+    for k in range(len(lengths)):
+        own = which == k
+        size = float(np.mean(h[own]))
+        whole = np.zeros((2 * n + 2 * forces, 2 * n + 2 * forces))
+        whole[: 2 * n, : 2 * n], whole[: 2 * n, 2 * n : 2 * n + forces] = A * size, B * size
+        whole[2 * n : 2 * n + forces, 2 * n + forces :] = np.eye(forces)
+        E = expm(whole)[: 2 * n]
+        z[1:][own] = start[own] @ E[:, 2 * n : 2 * n + forces].T
+        z[1:][own] += change[own] @ E[:, 2 * n + forces :].T
+        steps.append(np.ascontiguousarray(E[:, : 2 * n]))
+    for k, step in enumerate(which):
+        z[k + 1] += steps[step] @ z[k]
+    return Motion(z[:, :n] / w, z[:, n:])

@@ -1,0 +1,1 @@
+"""How modes move: exactly from point to point, and where forces depend on motion."""
