@@ -211,10 +211,11 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
     if damping.modal:
         summed = modal_response(model, frequency, file.response.modes, file.response.tolerance)
         H, error, at = summed.values, summed.error, summed.at
-        wrong = error
+        wrong = summed.peak_error
     else:
         beside = np.setdiff1d(grid, frequency)
         H, error, wrong = model.response_with(frequency, beside, file.response.tolerance)
+        wrong = np.maximum(error, wrong)
         at = model.quick
     shares = H * amplitude[:, None]
 
@@ -237,7 +238,7 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
         outputs[:shown],
         shares.sum(axis=1)[:shown],
         (error @ np.abs(amplitude))[:shown],
-        (np.maximum(error, wrong) @ np.abs(amplitude))[:shown],
+        (wrong @ np.abs(amplitude))[:shown],
         shares[:shown],
         drives,
         file.drive_names,

@@ -53,6 +53,8 @@ class Basis:
         c: each output's component of the state of each mode, relative to the ground.
     drag : array, shape (outputs, n)
         What each output takes of the rate of each mode: a reaction, by the dashpots there.
+    doubts : array, shape (n,)
+        Of omega2 [rad^2/s^2].
     coupling : array, shape (n, n), optional
         What modes pull each other with besides, where forces depend on motion [rad^2/s^2].
     doubt : float
@@ -65,6 +67,7 @@ class Basis:
     drives: Array
     outputs: Array
     drag: Array
+    doubts: Array
     coupling: Array | None = None
     doubt: float = 0.0
 
@@ -77,6 +80,7 @@ class Basis:
             self.drives[which],
             self.outputs[:, which],
             self.drag[:, which],
+            self.doubts[which],
         )
 
     @property
@@ -219,6 +223,7 @@ def basis(
         b.reshape(len(drives), len(found)).T,
         c.reshape(len(outputs), len(found)),
         np.array([shown.dragged(o) if o.family == family else 0 * omega2 for o in outputs]),
+        np.array([mode.error_omega2 for mode in found]),
     )
 
 

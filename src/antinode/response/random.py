@@ -31,7 +31,7 @@ from .frequency import Model
 from .harmonic import bases, output_keys, resonance_warnings
 from .integrals import Pieces, integrate, pieces_of
 from .modal import Basis
-from .modal_sum import modal_response
+from .modal_sum import ModalSum, modal_response
 from .numbers import plain
 from .peaks import Peak, find_peaks, with_resonances
 from .quantities import Drive, Output
@@ -309,6 +309,21 @@ def _integrals(
     return parts.reshape(number, kinds, count), error.reshape(number, kinds)
 
 
+def _by_modes(
+    summed: ModalSum, inputs: Inputs, frequency_hz: Array, psd: Array, square: Array
+) -> Array:
+    """Return how far the errors of summed modes move the mean squares.
+
+    A resonance that is off in frequency takes what is at the ends of the band out of it or in, and
+    meets another input there: that is less than ten times its relative error.
+    """
+    most = np.einsum("od,dk->ok", summed.peak_error, inputs.amplitudes(frequency_hz))
+    wrong = np.max(2 * np.sqrt(psd) * most + most**2, axis=-1)
+    relative = np.max(wrong / np.maximum(np.max(psd, axis=-1), 1e-300))
+    ends = summed.shift_hz * (psd[:, 0] + psd[:, -1])
+    return np.asarray((relative + 10 * summed.shift_hz / frequency_hz[0]) * square + ends)
+
+
 def statistics(
     own: Moments, names: Sequence[str], duration_s: float
 ) -> tuple[OutputStatistics, ...]:
@@ -409,8 +424,7 @@ def solve_random(problem: Problem) -> RandomResult:
     psd_error = np.max(2 * np.sqrt(psd) * most + most**2, axis=-1)
     own = moments(model, inputs, modes, band, tolerance)
     if damping.modal:
-        relative = np.max(psd_error / np.maximum(np.max(psd, axis=-1), 1e-300))
-        own = own._replace(error=own.error + relative * own.square)
+        own = own._replace(error=own.error + _by_modes(summed, inputs, frequency, psd, own.square))
     found = statistics(own, file.drive_names, file.random.duration)
     resonance = np.concatenate([m.frequency_hz for m in modes])
     grid = with_resonances(frequency, resonance, np.concatenate([m.ratio for m in modes]))

@@ -132,6 +132,7 @@ def _closed(own: Basis, rest: Array, model: Model, loops: Loops) -> tuple[Basis,
         b - into @ by_force,
         own_out - out @ pull,
         own.drag[:o] - out @ brake,
+        own.doubts,
         into @ pull,
     )
     return closed, rest[:o, :d] - out @ by_force
