@@ -10,7 +10,6 @@ import numpy as np
 from antinode.arguments import ByValue
 from antinode.arrays import Array, Numbers
 from antinode.beam.beam import Beam
-from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.methods import ResponseMethods
 
@@ -161,7 +160,7 @@ def bases(model: Model) -> tuple[Basis, ...]:
     )
     coupled = bool(without_orthogonality(model.beam)) and not model.damping.modal
     return tuple(
-        resonant(model, own) if coupled and family == BENDING else own
+        resonant(model, family, own) if coupled else own
         for family, own in zip(number, found, strict=True)
     )
 

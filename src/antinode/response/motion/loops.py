@@ -22,7 +22,7 @@ import numpy as np
 from antinode.arrays import Array, Numbers
 from antinode.beam.attachments import PointFeedback
 from antinode.beam.beam import Beam
-from antinode.beam.families import BENDING, FamilyName
+from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.errors import InputError
 from antinode.response.frequency import Model
 from antinode.response.modal import Basis, orthogonal, without_orthogonality
@@ -148,9 +148,10 @@ def summed(model: Model, family: FamilyName, modes: int) -> Summed | Closed:
     """
     if not without_orthogonality(model.beam):
         return Summed(model, family, modes)
-    loops = loops_of(model.beam) if family == BENDING else Loops((), (), *np.zeros((2, 0, 0)))
+    bends = FAMILIES[family].law.has_axial_force
+    loops = loops_of(model.beam) if bends else Loops((), (), *np.zeros((2, 0, 0)))
     feeds = any(isinstance(item, PointFeedback) for item in model.beam.attachments)
-    if feeds and any(isinstance(d, Base) and d.family == BENDING for d in model.drives):
+    if bends and feeds and any(isinstance(d, Base) and d.family == family for d in model.drives):
         raise InputError(
             "the supports move and something feeds back: whether it feels the motion of the ground "
             "is not said, and a history needs it; give forces in place of [base]"
@@ -167,12 +168,13 @@ def summed(model: Model, family: FamilyName, modes: int) -> Summed | Closed:
     return Closed(model, plain, loops) if loops.drives else plain
 
 
-def resonant(model: Model, own: Basis) -> Basis:
-    """Return bending modes as they resonate where forces depend on motion.
+def resonant(model: Model, family: FamilyName, own: Basis) -> Basis:
+    """Return modes of a family as they resonate where forces depend on motion.
 
     Parameters
     ----------
     model : Model
+    family : str
     own : Basis
         Of the beam near by, which gives them their names.
 
@@ -182,7 +184,7 @@ def resonant(model: Model, own: Basis) -> Basis:
         With frequencies and ratios of the complex modes, and how far half of the modes that they
         are made of would move them, over the eight that this falls by at least.
     """
-    wide = summed(model, BENDING, 2 * len(own.names) + 8)
+    wide = summed(model, family, 2 * len(own.names) + 8)
     if not isinstance(wide, Closed):
         return own
     found, few = wide.poles, wide.half.poles
