@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from .stability.loci import Loci, root_loci
     from .stability.result import CriticalLoad, Stability
     from .stability.stability import stability
+    from .study.along.along import stability_along, stability_map
+    from .study.along.result import Along, StabilityMap
     from .study.answers.answers import Answers, case_table
     from .study.answers.search import search
     from .study.design.file import Study, load_study
@@ -111,7 +113,11 @@ _HOME = {
     "CriticalLoad": "stability.result",
     "Loci": "stability.loci",
     "root_loci": "stability.loci",
+    "Along": "study.along.result",
     "Stability": "stability.result",
+    "StabilityMap": "study.along.result",
+    "stability_along": "study.along.along",
+    "stability_map": "study.along.along",
     "stability": "stability.stability",
     "Identification": "study.identify.result",
     "identify": "study.identify.identification",
@@ -133,6 +139,7 @@ _HOME = {
 }
 
 __all__ = [
+    "Along",
     "Answers",
     "AntinodeError",
     "Base",
@@ -168,6 +175,7 @@ __all__ = [
     "Section",
     "Spring",
     "Stability",
+    "StabilityMap",
     "Stations",
     "Study",
     "Vehicle",
@@ -199,6 +207,8 @@ __all__ = [
     "solve_response",
     "srs",
     "stability",
+    "stability_along",
+    "stability_map",
     "static_shape",
     "sweep",
     "verify",

@@ -188,6 +188,15 @@ class StabilityMethods:
         _repr_html_ = Method("show.objects.cards", "stability_card")
 
 
+class AlongMethods:
+    """Of `Along`."""
+
+    if TYPE_CHECKING:
+        to_dataframe = frames.along_frame
+    else:
+        to_dataframe = Method("show.objects.frames", "along_frame")
+
+
 class ResponseMethods:
     """Of the four kinds of response."""
 

@@ -1,4 +1,4 @@
-"""Critical loads on the terminal, as CSV, and in a figure of root loci."""
+"""Critical loads, and critical values of inputs, on the terminal and as CSV."""
 
 from __future__ import annotations
 
@@ -14,18 +14,15 @@ from antinode.modes.result import not_modelled
 from antinode.text import counted
 
 from .printing import fitting, new_table, show_left_out, show_warnings
-from .style import INK, PALETTE, WIDTH, styled, zero_line
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from rich.table import Table
 
     from antinode.beam.beam import Beam
-    from antinode.stability.loci import Loci
     from antinode.stability.result import CriticalLoad, DampedLoss, Stability
+    from antinode.study.along.result import Along, StabilityMap
 
 _CHANGES = {
     "lost": "lost",
@@ -108,66 +105,71 @@ def stability_csv(result: Stability) -> str:
     return out.getvalue()
 
 
-# --- root loci ------------------------------------------------------------------------------------
-
-_FLUTTER, _DIVERGENCE = "#B91C1C", "#B45309"
-
-
-def plot_loci(loci: Loci) -> Figure:
-    """Draw frequencies above, growth below; each critical load is a line across both."""
-    with styled() as plt:
-        figure: Figure
-        figure, (above, below) = plt.subplots(
-            2,
-            1,
-            figsize=(WIDTH, 0.72 * WIDTH),
-            sharex=True,
-            height_ratios=(3, 2),
-            layout="constrained",
-        )
-        for k in range(loci.frequency_hz.shape[1]):
-            colour = PALETTE[k % len(PALETTE)]
-            above.plot(loci.factor, loci.frequency_hz[:, k], color=colour, zorder=3)
-        zero_line(below)
-        growing = np.maximum(loci.growth_per_s, 0.0)
-        for k in np.flatnonzero(np.any(growing > 0, axis=0)).tolist():
-            below.plot(loci.factor, growing[:, k], color=PALETTE[k % len(PALETTE)], zorder=3)
-            below.fill_between(loci.factor, growing[:, k], color=_FLUTTER, alpha=0.08, linewidth=0)
-        for axes in (above, below):
-            _mark(axes, loci, named=axes is above)
-        above.set(ylabel="frequency [Hz]", ylim=(0, 1.18 * _highest(loci)))
-        below.set(ylabel="growth [1/s]", xlabel="factor on all axial forces")
-        below.set_ylim(bottom=0, top=1.1 * max(float(np.max(growing)), 1e-9))
-        below.set_xlim(0, float(loci.factor[-1]))
-        return figure
+def show_along(out: Console, result: Along) -> None:
+    """Print every change of stability along an input, and what was looked at."""
+    if result.critical:
+        names = "modes", f"{result.line}", "+-", "kind", "f [Hz]", "stability", "bracket by"
+        table = new_table(*names, left=[0, 3, 5, 6])
+        for each in result.critical:
+            low, high = each.bracket
+            table.add_row(
+                Text(" with ".join(each.modes)),
+                f"{each.value:.10g}",
+                f"{max(high - each.value, each.value - low):.1e}",
+                each.kind,
+                f"{each.frequency_hz:.7g}" if each.kind == "flutter" else "",
+                each.change,
+                "winding number" if each.proven else "not proven",
+            )
+        out.print(table)
+    else:
+        out.print("no change of stability")
+    motions = counted(result.found.unstable, "motion")
+    start = f"At the start {motions} already growing. " if result.found.unstable else ""
+    steps = counted(result.found.solved, "value")
+    text = (
+        f"{start}{result.line} from {result.line.low:g} to {result.found.reach:.7g}, all modes "
+        f"solved at {steps}: that nothing else happens between is not proven."
+    )
+    out.print(f"[dim]{text}[/dim]", highlight=False)
+    show_warnings(out, result.warnings)
 
 
-def _highest(loci: Loci) -> float:
-    """Return a frequency that shows the modes that lose stability, and one or two above."""
-    shown = min(3, loci.frequency_hz.shape[1])
-    return float(np.max(loci.frequency_hz[:, :shown])) or 1.0
+def show_map(out: Console, result: StabilityMap) -> None:
+    """Print where stability is first lost, over a second input."""
+    along = "factor" if result.line is None else str(result.line)
+    table = new_table(str(result.over), f"divergence: {along}", f"flutter: {along}", "", left=[3])
+    both = (result.boundary(kind) for kind in ("divergence", "flutter"))
+    for value, divergence, flutter, reason in zip(
+        result.values, *both, result.reasons, strict=True
+    ):
+        cells = ("" if np.isnan(v) else f"{v:.8g}" for v in (divergence, flutter))
+        table.add_row(f"{value:.6g}", *cells, Text(reason))
+    out.print(table)
 
 
-def _mark(axes: Axes, loci: Loci, named: bool) -> None:
-    """Draw critical loads as lines, each named along its own."""
-    for each in loci.critical.critical:
-        colour = _FLUTTER if each.kind == "flutter" else _DIVERGENCE
-        axes.axvline(each.load_factor, color=colour, linewidth=0.9, linestyle=(0, (4, 3)), zorder=2)
-        if not named:
-            continue
-        kind = each.kind if each.change == "lost" else f"{each.kind} {each.change}"
-        first = each.load_factor < 0.03 * loci.factor[-1]
-        axes.annotate(
-            f"{each.load_factor:.5g}: {kind}, {' + '.join(each.modes)}",
-            (each.load_factor, 1.0),
-            (3 if first else -3, -4),
-            xycoords=axes.get_xaxis_transform(),
-            textcoords="offset points",
-            rotation=90,
-            ha="left" if first else "right",
-            va="top",
-            fontsize="small",
-            color=INK,
-            zorder=4,
-            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5},
-        )
+def along_csv(result: Along) -> str:
+    """Return the changes of stability along an input as CSV, one a row."""
+    names = "kind", str(result.line), "low", "high", "frequency [Hz]", "modes", "change", "proven"
+    rows = [
+        (c.kind, c.value, *c.bracket, c.frequency_hz, " + ".join(c.modes), c.change, c.proven)
+        for c in result.critical
+    ]
+    return _csv(names, rows)
+
+
+def map_csv(result: StabilityMap) -> str:
+    """Return where stability is first lost over a second input as CSV, one value a row."""
+    along = "load_factor" if result.line is None else str(result.line)
+    names = str(result.over), f"divergence {along}", f"flutter {along}", "reason"
+    both = (result.boundary(kind).tolist() for kind in ("divergence", "flutter"))
+    return _csv(names, zip(result.values.tolist(), *both, result.reasons, strict=True))
+
+
+def _csv(names: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(names)
+    for row in rows:
+        writer.writerow([repr(v) if isinstance(v, float) else v for v in row])
+    return out.getvalue()

@@ -7,6 +7,7 @@ decays. Of each the frequency abs(Im s)/(2 pi) and the growth Re s are given.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,7 @@ from antinode.beam.limits import out_of_range_is_an_error
 from antinode.modes.backends import choose, for_one
 from antinode.modes.solve import HasBeam
 
+from .crossing import Root
 from .result import Stability
 from .stability import EVALUATIONS
 from .states import State, Watcher
@@ -29,8 +31,18 @@ _UNKNOWN = 1.0  # largest factor where nothing is critical and the range has no 
 
 
 @dataclass(frozen=True)
+class Mark:
+    """A change of stability on the axis: where, `kind`, `change` and the modes that it is of."""
+
+    value: float
+    kind: str
+    change: str
+    modes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Loci:
-    """Eigenvalues along a factor.
+    """Eigenvalues along a factor, or along an input.
 
     Attributes
     ----------
@@ -39,14 +51,18 @@ class Loci:
         By rising frequency, then falling growth; rigid modes that are always at zero are left out.
     names : tuple of str
         Of the modes, as they are numbered before the first flutter.
-    critical : Stability
+    marks : tuple of Mark
+        Changes of stability.
+    label : str
+        What stands along the axis.
     """
 
     factor: Array
     frequency_hz: Array
     growth_per_s: Array
     names: tuple[str, ...]
-    critical: Stability
+    marks: tuple[Mark, ...]
+    label: str = "factor on all axial forces"
 
 
 @out_of_range_is_an_error()
@@ -74,7 +90,8 @@ def root_loci(
     number = min(modes + len(watcher.rigid) - watcher.zeros, *map(_size, states))
     rows = np.array([_rows(state, number) for state in states])
     frequency, growth = rows[:, :, 0], rows[:, :, 1]
-    return Loci(factor, frequency, growth, watcher.names[:number], found)
+    marks = (Mark(c.load_factor, c.kind, c.change, c.modes) for c in found.critical)
+    return Loci(factor, frequency, growth, watcher.names[:number], tuple(marks))
 
 
 def _factors(found: Stability, points: int) -> Array:
@@ -97,3 +114,18 @@ def _rows(state: State, number: int) -> list[tuple[float, float]]:
         real += [(abs(s.imag), sign * abs(s.real)) for sign in (-1.0, 1.0)]
     rows = sorted((omega / (2 * np.pi), -growth) for omega, growth in real)
     return [(float(f), float(-g)) for f, g in rows[:number]]
+
+
+def rows_of_roots(roots: Sequence[Sequence[Root]], number: int) -> tuple[Array, Array]:
+    """Return frequency [Hz] and growth [1/s] of the lowest eigenvalues in many lists.
+
+    Of shape (lists, number); of two that stand on the real axis at the same distance the one that
+    grows is told, and NaN where there are fewer.
+    """
+    frequency = np.full((len(roots), number), np.nan)
+    growth = frequency.copy()
+    for k, row in enumerate(roots):
+        told = sorted((abs(r.s.imag), -r.s.real) for r in row if r.s.imag or r.s.real > 0)
+        for i, (omega, decay) in enumerate(told[:number]):
+            frequency[k, i], growth[k, i] = omega / (2 * np.pi), -decay
+    return frequency, growth

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from antinode.cli.options import OUTPUT, SOLVER, Json, assignments, option
+from antinode.cli.options import INPUT, OUTPUT, SOLVER, Json, assignments, option, whole
+from antinode.errors import InputError
 
 if TYPE_CHECKING:
     from antinode.beam.beam import Beam
@@ -27,6 +28,37 @@ Largest = Annotated[
         "that does.",
         "--to",
     ),
+]
+AlongInput = Annotated[
+    str | None,
+    option(
+        INPUT,
+        "Follow an input of the file, as studies name it, in place of the load factor: --along "
+        "'condition.speed = 60 m/s .. 140 m/s'. A column is multiplied by a factor.",
+        "--along",
+    ),
+]
+MapInput = Annotated[
+    str | None,
+    option(
+        INPUT,
+        "Tell the critical values of --along, or of the load factor, over a second input: --map "
+        "'condition.thrust = 10 kN .. 30 kN'.",
+        "--map",
+    ),
+]
+Points = Annotated[
+    int | None,
+    whole(
+        SOLVER,
+        "Even values along --along at which modes are solved first; default: 33, on a map 17.",
+        "--points",
+    ),
+]
+Rows = Annotated[int, whole(SOLVER, "Values of the second input of --map.", "--rows")]
+WithDampers = Annotated[
+    Literal["auto", "none"],
+    option(SOLVER, "none leaves dashpots and loss factors out along --along.", "--damping"),
 ]
 Tolerance = Annotated[
     float,
@@ -53,7 +85,12 @@ def stability(
     /,
     *,
     set_: StabilitySet = (),
+    along: AlongInput = None,
+    map: MapInput = None,
     to: Largest = None,
+    points: Points = None,
+    rows: Rows = 11,
+    damping: WithDampers = "auto",
     tolerance: Tolerance = 1e-9,
     json: Json = False,
     output: ResultFile = None,
@@ -68,7 +105,13 @@ def stability(
 
     - Example: **antinode stability beam.toml**
     - Example: **antinode stability beam.toml --set beam.ends.right_follower=0.5 --json**
+    With **--along** any input of the file takes the place of the factor; loads, mass and stiffness
+    follow it, and dashpots, feedback and loss factors count. **--map** repeats either over a second
+    input.
+
     - Example: **antinode stability case.toml --to 20 --plot loci.svg**
+    - Example: **antinode stability case.toml --along 'condition.speed = 60 m/s .. 140 m/s'**
+    - Example: **antinode stability case.toml --map 'condition.thrust = 10 kN .. 30 kN'**
 
     Parameters
     ----------
@@ -81,6 +124,13 @@ def stability(
     check_plot(plot)
     if output:
         check_output(output, (".json", ".csv"))
+    if along or map:
+        from antinode.study.along.command import run_along
+
+        run_along(file, set_, along, map, to, points, rows, damping == "auto", json, output, plot)
+        return
+    if points is not None:
+        raise InputError("--points is for --along: the steps along the load factor find themselves")
     beam = _beam_of(file, set_)
     from antinode.stability.stability import stability as find
 
@@ -89,7 +139,7 @@ def stability(
         _write(result, output)
         say_written(output)
     if plot:
-        from antinode.show.stability import plot_loci
+        from antinode.show.stability_figures import plot_loci
         from antinode.stability.loci import root_loci
 
         draw(plot_loci(root_loci(beam, result)), plot)

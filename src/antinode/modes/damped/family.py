@@ -15,7 +15,7 @@ import numpy as np
 
 from antinode.arrays import Array, Complex
 from antinode.beam.beam import Beam
-from antinode.beam.families import FamilyName
+from antinode.beam.families import BENDING, FamilyName
 from antinode.beam.representation import make_chain
 from antinode.errors import ComputationError
 from antinode.modes.backends import Backend
@@ -96,11 +96,33 @@ def solve_damped(
 
 def on_chain(beam: Beam, chain: Chain, modes: int, backend: Backend) -> ComplexRoots:
     """Return the complex eigenvalues of one chain of a beam, without dampers and loss."""
+    damped = Damped(_without_dashpots(chain))
+    return _roots(damped, at_rest(beam, damped), modes, backend, scales=True)
+
+
+def on_refinement(
+    beam: Beam, refinement: int, modes: int, backend: Backend, *, dampers: bool
+) -> DampedFamily:
+    """Return the complex eigenvalues of a beam in bending on chains of one refinement.
+
+    Their errors are those of the chain alone. `dampers` says whether dashpots and losses count.
+    """
+    chain = beam.chain(BENDING, refinement)
+    lossy = dampers and beam.loss_factor is not None and bool(np.any(beam.loss_factor))
+    columns = make_chain(beam, BENDING, refinement, 0.0).columns if lossy else None
+    damped = Damped(chain if dampers else _without_dashpots(chain), columns)
+    rest = at_rest(beam, damped)
+    scales = beam.is_unloaded or not beam.has_shear or beam.shear_form == "haringx"
+    roots = _roots(damped, rest, modes, backend, scales)
+    own = np.array([value.error for value in roots.eigenvalues])
+    return DampedFamily(damped, roots.eigenvalues, own, rest, [], certificate_dict(roots))
+
+
+def _without_dashpots(chain: Chain) -> Chain:
     points = tuple(
         replace(p, dashpot=0.0, rotational_dashpot=0.0, feedback_damping=None) for p in chain.points
     )
-    damped = Damped(replace(chain, points=points))
-    return _roots(damped, at_rest(beam, damped), modes, backend, scales=True)
+    return replace(chain, points=points)
 
 
 def _roots(

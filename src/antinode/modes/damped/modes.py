@@ -56,7 +56,7 @@ def damped_modes(
 ) -> DampedModes:
     """Solve a family: rigid modes at rest, then all others by abs(Im s), then Re s."""
     solved = solve_damped(beam, family, modes, tolerance, backend, lossy=lossy)
-    names = _names(beam, solved)
+    names = names_in(beam, solved)
     keep = _kept(solved, modes)
     shapes = _Shapes(beam, solved, keep, grid, normalisation)
     found = [
@@ -84,7 +84,7 @@ def _kept(solved: DampedFamily, modes: int) -> list[int]:
     return kept
 
 
-def _names(beam: Beam, solved: DampedFamily) -> list[tuple[str, int]]:
+def names_in(beam: Beam, solved: DampedFamily) -> list[tuple[str, int]]:
     """Return name and number of each eigenvalue; a rotation that N moved off zero has number 0."""
     family = solved.damped.chain.law.name
     s = [value.s for value in solved.eigenvalues]
@@ -272,7 +272,7 @@ def _mode(
         family=family,
         number=named[1],
         name=named[0],
-        kind=_kind(s, error),
+        kind=kind_of(s, error),
         omega2=omega2,
         bracket_omega2=(low, high),
         counts=(-1, -1),
@@ -289,7 +289,8 @@ def _mode(
     )
 
 
-def _kind(s: complex, error: float) -> Kind:
+def kind_of(s: complex, error: float) -> Kind:
+    """Return what a motion with a damped or growing exponential is."""
     if s.imag == 0:
         return "divergent" if s.real > 0 else "overdamped"
     return "flutter" if s.real > error else "elastic"

@@ -212,7 +212,8 @@ class Ratio:
 
 def _largest_share(omega2: Complex, poles: Array, sigma: float, moved: Array) -> Array:
     """Return the largest ``(l_k + sigma)/(|l_k - l| - d)`` of all l_k, beyond the last too."""
-    above = omega2.real + omega2.imag**2 / np.maximum(omega2.real + sigma, 1e-300)
+    with np.errstate(over="ignore"):
+        above = omega2.real + omega2.imag**2 / np.maximum(omega2.real + sigma, 1e-300)
     beyond = np.maximum(np.where(omega2.real + sigma > 0, above, 0.0), poles[-1])
     known = np.broadcast_to(poles, (len(omega2), len(poles)))
     places = np.concatenate([known, beyond[:, None]], axis=1)

@@ -44,6 +44,7 @@ _TRIES = (
     (1e5, 256),
     (1e6, 256),
 )
+_TRIES_REAL = 6  # of them, to tell a real one
 """Circles about an eigenvalue: over the first radius, and with how many corners."""
 _DISC = 0.2  # of the distance to the next pole of g: where its tangent is bounded
 _STEP = 1e-4  # of that disc, between places that tell the slope
@@ -183,7 +184,8 @@ class Finder:
                 enough = enough or roots
                 if roots.proven:
                     return roots
-            if not roots.proven and (circle.margin <= 0 or moved >= _MOVES):
+            alone = circle.margin > 0 and all(v.proven for v in roots.eigenvalues)
+            if not roots.proven and (not alone or moved >= _MOVES):
                 break
             moved += not roots.proven
             below += max(1, wanted - oscillating)
@@ -299,7 +301,7 @@ class Finder:
         radius = radius + _FLOOR * self.scale
         alone, used = self._holds_one(places, radius)
         alone &= off < used
-        for growth, corners in _TRIES:
+        for growth, corners in _TRIES[:_TRIES_REAL]:
             open_ = np.flatnonzero(~alone)
             if not len(open_):
                 break

@@ -97,6 +97,20 @@ def stability_frame(result: Stability) -> pandas.DataFrame:
     return frame(columns, {"frequency_hz": "Hz", "frequency_error_hz": "Hz"})
 
 
+def along_frame(result: Any) -> pandas.DataFrame:
+    """Return the changes of stability along an input as a table, one row each."""
+    rows = [each.to_dict() for each in result.critical]
+    columns: dict[str, Any] = {
+        name: [row[name] for row in rows] for name in ("kind", "value", "frequency_hz", "change")
+    }
+    for k, name in enumerate(("low", "high")):
+        columns[name] = [each.bracket[k] for each in result.critical]
+    columns["modes"] = [", ".join(each.modes) for each in result.critical]
+    columns["proven"] = [each.proven for each in result.critical]
+    unit = result.line.unit
+    return frame(columns, {"value": unit, "low": unit, "high": unit, "frequency_hz": "Hz"})
+
+
 def loads_frame(loads: Loads, points: int = 201) -> pandas.DataFrame:
     """Return N, Q and M along the straight body; two rows where N or Q jumps.
 

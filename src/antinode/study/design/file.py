@@ -365,12 +365,18 @@ def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
     return Study(case=case, **kept)
 
 
-def load_subject(path: Path, assignments: Iterable[str] = ()) -> Case | BeamFile:
-    """Read what a study varies something in: the case of a vehicle, or a beam file."""
+def load_subject(
+    path: Path, assignments: Iterable[str] = (), *, real: bool = True
+) -> Case | BeamFile:
+    """Read what a study varies something in: the case of a vehicle, or a beam file.
+
+    `real` refuses a case whose modes are complex.
+    """
     tables = {"beam": {}} if path.suffix.lower() in TABLES else read_toml(path)
     if "beam" in tables and "vehicle" not in tables:
         return load_beam(path, assignments)
-    return check_real(load_case(path, assignments))
+    case = load_case(path, assignments)
+    return check_real(case) if real else case
 
 
 def _read_table(path: Path) -> tuple[StudyInput, ...]:
