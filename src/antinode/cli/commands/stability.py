@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
+
+from cyclopts import Parameter
 
 from antinode.cli.options import INPUT, OUTPUT, SOLVER, Json, assignments, option, whole
 from antinode.errors import InputError
@@ -29,37 +32,6 @@ Largest = Annotated[
         "--to",
     ),
 ]
-AlongInput = Annotated[
-    str | None,
-    option(
-        INPUT,
-        "Follow an input of the file, as studies name it, in place of the load factor: --along "
-        "'condition.speed = 60 m/s .. 140 m/s'. A column is multiplied by a factor.",
-        "--along",
-    ),
-]
-MapInput = Annotated[
-    str | None,
-    option(
-        INPUT,
-        "Tell the critical values of --along, or of the load factor, over a second input: --map "
-        "'condition.thrust = 10 kN .. 30 kN'.",
-        "--map",
-    ),
-]
-Points = Annotated[
-    int | None,
-    whole(
-        SOLVER,
-        "Even values along --along at which modes are solved first; default: 33, on a map 17.",
-        "--points",
-    ),
-]
-Rows = Annotated[int, whole(SOLVER, "Values of the second input of --map.", "--rows")]
-WithDampers = Annotated[
-    Literal["auto", "none"],
-    option(SOLVER, "none leaves dashpots and loss factors out along --along.", "--damping"),
-]
 Tolerance = Annotated[
     float,
     option(
@@ -80,17 +52,51 @@ PlotFile = Annotated[
 ]
 
 
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Inputs:
+    """Which inputs of the file take the place of the load factor."""
+
+    along: Annotated[
+        str | None,
+        option(
+            INPUT,
+            "Follow an input of the file, as studies name it, in place of the load factor: --along "
+            "'condition.speed = 60 m/s .. 140 m/s'. A column is multiplied by a factor.",
+        ),
+    ] = None
+    map: Annotated[
+        str | None,
+        option(
+            INPUT,
+            "Tell the critical values of --along, or of the load factor, over a second input: "
+            "--map 'condition.thrust = 10 kN .. 30 kN'.",
+        ),
+    ] = None
+    points: Annotated[
+        int | None,
+        whole(
+            SOLVER,
+            "Even values along --along at which modes are solved first; default: 33, on a map 17.",
+        ),
+    ] = None
+    rows: Annotated[int, whole(SOLVER, "Values of the second input of --map.")] = 11
+    damping: Annotated[
+        Literal["auto", "none"],
+        option(SOLVER, "none leaves dashpots and loss factors out along --along."),
+    ] = "auto"
+
+
+_INPUTS = Inputs()
+
+
 def stability(
     file: Path,
     /,
     *,
     set_: StabilitySet = (),
-    along: AlongInput = None,
-    map: MapInput = None,
+    inputs: Inputs = _INPUTS,
     to: Largest = None,
-    points: Points = None,
-    rows: Rows = 11,
-    damping: WithDampers = "auto",
     tolerance: Tolerance = 1e-9,
     json: Json = False,
     output: ResultFile = None,
@@ -103,12 +109,11 @@ def stability(
     rotations, with a bracket that is proven. Dashpots and loss factors are left out of these; with
     them the first loss of stability is told beside.
 
-    - Example: **antinode stability beam.toml**
-    - Example: **antinode stability beam.toml --set beam.ends.right_follower=0.5 --json**
     With **--along** any input of the file takes the place of the factor; loads, mass and stiffness
     follow it, and dashpots, feedback and loss factors count. **--map** repeats either over a second
     input.
 
+    - Example: **antinode stability beam.toml --set beam.ends.right_follower=0.5 --json**
     - Example: **antinode stability case.toml --to 20 --plot loci.svg**
     - Example: **antinode stability case.toml --along 'condition.speed = 60 m/s .. 140 m/s'**
     - Example: **antinode stability case.toml --map 'condition.thrust = 10 kN .. 30 kN'**
@@ -118,23 +123,34 @@ def stability(
     file
         A beam file, a table of stations, or a vehicle's case.
     """
-    from antinode.show.outcome import check_plot, draw, print_json, say_written
+    from antinode.show.outcome import check_plot
     from antinode.show.writing import check_output
 
     check_plot(plot)
     if output:
         check_output(output, (".json", ".csv"))
-    if along or map:
+    if inputs.along or inputs.map:
         from antinode.study.along.command import run_along
 
-        run_along(file, set_, along, map, to, points, rows, damping == "auto", json, output, plot)
+        run_along(file, set_, to, json=json, output=output, plot=plot, **vars(inputs))
         return
-    if points is not None:
+    if inputs.points is not None:
         raise InputError("--points is for --along: the steps along the load factor find themselves")
-    beam = _beam_of(file, set_)
-    from antinode.stability.stability import stability as find
+    _along_factor(_beam_of(file, set_), to, tolerance, json, output, plot)
 
-    result = find(beam, to, tolerance=tolerance)
+
+def _along_factor(
+    beam: Beam,
+    to: float | None,
+    tolerance: float,
+    json: bool,
+    output: Path | None,
+    plot: Path | None,
+) -> None:
+    """Find the critical factors of a beam, and tell them."""
+    from antinode.show.outcome import draw, print_json, say_written
+
+    result = beam.stability(to, tolerance=tolerance)
     if output:
         _write(result, output)
         say_written(output)

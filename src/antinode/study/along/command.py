@@ -18,12 +18,13 @@ from .result import Along, StabilityMap
 def run_along(
     file: Path,
     assignments: tuple[str, ...],
-    along: str | None,
-    over: str | None,
     largest: float | None,
+    *,
+    along: str | None,
+    map: str | None,
     points: int | None,
     rows: int,
-    dampers: bool,
+    damping: str,
     json: bool,
     output: Path | None,
     plot: Path | None,
@@ -33,8 +34,9 @@ def run_along(
         raise InputError("--to is for the load factor; the range of --along stands with it")
     problem = load_subject(file, assignments, real=False)
     first = parse_line(along, "--along") if along else None
-    if over:
-        _map(problem, first, over, largest, points, rows, dampers, json, output, plot)
+    dampers = damping != "none"
+    if map:
+        _map(problem, first, map, largest, points, rows, dampers, json, output, plot)
         return
     assert first is not None
     key, low, high = first
