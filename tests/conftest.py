@@ -8,6 +8,11 @@ import pytest
 
 from installed import SOLVE, install, run, shared
 
+for _library in ("OMP", "OPENBLAS", "MKL"):
+    # Workers share the processors out among themselves: further threads, for matrices of some
+    # hundred rows, wait for each other at full speed, and took two thirds of the time of all.
+    os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
+
 
 def pytest_addoption(parser):
     parser.addoption(

@@ -1,12 +1,15 @@
-"""An independent reference for forced beams: hp finite elements, a dense solve a frequency.
+"""An independent reference for forced beams: hp finite elements, factored once a frequency.
 
 Motion of the supports is told in relative motion, by inertia: nothing is shared with the solver,
 which tells it in absolute motion by supports and springs.
 """
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
 
 from antinode.beam.attachments import Dashpot
 from hp_beam import _breaks, _Mesh, _weighted
@@ -43,6 +46,7 @@ class HpResponse:
                 self.C[self.dof(item.x, i), self.dof(item.x, i)] += c
         self.free = np.setdiff1d(np.arange(n), mesh.held)
         self.mesh = mesh
+        self.factors = lru_cache(maxsize=1)(self._factors)
 
     def dof(self, x, freedom=0):
         """Unknown at a breakpoint, on the left of a joint."""
@@ -53,13 +57,17 @@ class HpResponse:
         D = self.K + 1j * omega * self.C - omega**2 * self.M
         return D[np.ix_(self.free, self.free)]
 
-    def solve(self, omega, load):
+    def _factors(self, omega):
+        """Scaling to a unit diagonal, and the factors of what is scaled."""
         d = 1 / np.sqrt(
             np.abs(np.diag(self.K)[self.free].real) + omega**2 * np.diag(self.M)[self.free]
         )
+        return d, splu(csc_matrix(self.dynamic(omega) * np.outer(d, d)))
+
+    def solve(self, omega, load):
+        d, factors = self.factors(omega)
         u = np.zeros(len(self.K), complex)
-        D = self.dynamic(omega) * np.outer(d, d)
-        u[self.free] = d * np.linalg.solve(D, d * load[self.free])
+        u[self.free] = d * factors.solve(d * load[self.free])
         return u
 
     def by_force(self, omega, x, freedom=0):

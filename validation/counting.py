@@ -31,7 +31,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 
-from chains import LONG, NEAR, STEEP, Case, draw_case, draw_resonance  # noqa: E402
+from chains import LONG, NEAR, STEEP, Case, draw_case, draw_resonance, kept_case  # noqa: E402
 from law_chains import bending_chain  # noqa: E402
 from reference import certain_count, parity_below  # noqa: E402
 
@@ -65,6 +65,12 @@ def judge(seed, index, counter=antinode_count):
     """Draw case `index`, count it by both sides; `counter=None` leaves antinode out."""
     start = time.perf_counter()
     return [_compare(draw_case(seed, index), counter, start)]
+
+
+def judge_kept(seed, index, counter=antinode_count):
+    """Do the same with a case as it is kept."""
+    start = time.perf_counter()
+    return [_compare(kept_case(seed, index), counter, start)]
 
 
 def judge_resonance(seed, index, counter=antinode_count):

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from validation.counting import mismatches, run, wanting
+from validation.counting import judge_kept, mismatches, run, wanting
 
 from antinode.riccati.chain import count_below
+from chains import draw_case, kept_case
 from law_chains import bending_chain
 from reference import BeamChain, certain_count
 
@@ -15,9 +16,21 @@ ENDS = st.sampled_from(["free", "clamped", "pinned", "sliding"])
 
 def test_a_tenth_of_the_record():
     """100 seeded cases: none skipped, a quarter each steep, near buckling, long."""
-    verdicts = run(2026, 100, jobs=1)
+    verdicts = run(2026, 100, jobs=1, judge=judge_kept)
     assert mismatches(verdicts) == []
     assert wanting(verdicts) == []
+
+
+@pytest.mark.parametrize(("seed", "index"), [(2026, 6), (2026, 37), (2026, 81), (515, 24)])
+def test_kept_cases_are_those_that_are_drawn(seed, index):
+    kept, drawn = kept_case(seed, index), draw_case(seed, index)
+    assert (kept.chain.left, kept.chain.right) == (drawn.chain.left, drawn.chain.right)
+    for name in ("h", "EI", "m", "N"):
+        assert getattr(kept.chain, name) == pytest.approx(getattr(drawn.chain, name), rel=1e-12)
+    assert (kept.target, kept.negative) == (drawn.target, drawn.negative)
+    assert kept.omega2 == pytest.approx(drawn.omega2, rel=1e-9)
+    assert kept.room == pytest.approx(drawn.room, rel=1e-6)
+    assert kept.load_factor == pytest.approx(drawn.load_factor, nan_ok=True)
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)

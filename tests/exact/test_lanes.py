@@ -14,7 +14,7 @@ from antinode.riccati.lanes import calls as compiled
 from antinode.riccati.laws import BAR, SHAFT
 from antinode.riccati.points import Point
 from antinode.riccati.segment import fundamental
-from chains import draw_case, draw_resonance
+from chains import draw_resonance, kept_case
 from law_chains import bar_chain, bending_chain, shaft_chain
 from reference import certain_count
 
@@ -138,7 +138,7 @@ def as_chain(case):
 @pytest.mark.parametrize("index", range(60))
 def test_counts_agree_with_many_digits(index):
     """omega^2 in gaps between eigenvalues, below the first, and below zero."""
-    case = draw_case(515, index)
+    case = kept_case(515, index)
     below = compiled.evaluate(as_chain(case), [case.omega2]).below[0]
     assert below == certain_count(case.chain, case.omega2).count
 

@@ -36,18 +36,19 @@ def test_all_ends_against_40_digits(ends, form):
     found = {
         b: solve_modes(beam, 5, backend=b, families="bending").modes for b in ("numpy", "numba")
     }
-    for modes in found.values():
-        for mode in modes:
-            with mpmath.workdps(40):
-                near = mpmath.mpf(mode.omega2)
-                bounds = near * (1 - mpmath.mpf(10) ** -9), near * (1 + mpmath.mpf(10) ** -9)
-                exact = mpmath.findroot(
-                    lambda w: determinant(beam, w), bounds, solver="anderson", tol=1e-40
-                )
-                off = float(abs(exact - near))
+    for both in zip(*found.values(), strict=True):
+        with mpmath.workdps(40):
+            exact = _root_next_to(beam, both[0].omega2)
+            offs = [float(abs(exact - mpmath.mpf(mode.omega2))) for mode in both]
+        for mode, off in zip(both, offs, strict=True):
             assert off <= mode.error_omega2
             assert off <= 1e-12 * abs(mode.omega2)
             assert mode.bracket_omega2[0] <= float(exact) <= mode.bracket_omega2[1]
+
+
+def _root_next_to(beam, omega2):
+    bounds = [omega2 * (1 + sign * mpmath.mpf(10) ** -9) for sign in (-1, 1)]
+    return mpmath.findroot(lambda w: determinant(beam, w), bounds, solver="anderson", tol=1e-40)
 
 
 def varying(how, form, ends):
