@@ -44,7 +44,8 @@ if TYPE_CHECKING:
     from .study.along.result import Along, StabilityMap
     from .study.answers.answers import Answers, case_table
     from .study.answers.search import search
-    from .study.design.file import Study, load_study
+    from .study.design.file import Study
+    from .study.design.loading import load_study
     from .study.identify.file import IdentificationProblem, load_identification
     from .study.identify.identification import identify
     from .study.identify.result import Identification
@@ -124,7 +125,7 @@ _HOME = {
     "IdentificationProblem": "study.identify.file",
     "load_identification": "study.identify.file",
     "Study": "study.design.file",
-    "load_study": "study.design.file",
+    "load_study": "study.design.loading",
     "sweep": "study.sweep.sweep",
     "sensitivity": "study.sensitivity.sensitivity",
     "open_store": "study.sweep.folder",

@@ -26,7 +26,7 @@ class Row(NamedTuple):
     cells: list[str]
 
 
-_COMMENTS = "#", "%", "!", "//"
+COMMENTS = "#", "%", "!", "//"
 _MARKS = ",;\t|"
 _QUOTES = str.maketrans(dict.fromkeys("\u201c\u201d\u201e\u00ab\u00bb", '"'))
 _SAID = re.compile(r'"?sep=(.)"?\s*$', re.IGNORECASE)
@@ -40,14 +40,10 @@ def rows_of(text: str, path: Path) -> Iterator[Row]:
     InputError
         If there are too many, or one cannot be read.
     """
-    lines = text.translate(_QUOTES).splitlines()
-    said = _SAID.match(lines[0]) if lines else None
-    mark = said[1] if said else _separator(lines)
-    count = 0
+    lines = text.splitlines()
+    mark, count = mark_of(lines), 0
     for line, content in enumerate(lines, 1):
-        if content.lstrip().startswith(_COMMENTS) or (said and line == 1):
-            continue
-        cells = _cells(content, mark, f"{path}, line {line}")
+        cells = cells_of(content, mark, f"{path}, line {line}")
         if any(cells):
             count += 1
             if count > MOST_ROWS + 1:
@@ -55,7 +51,23 @@ def rows_of(text: str, path: Path) -> Iterator[Row]:
             yield Row(line, cells)
 
 
-def _cells(content: str, mark: str, where: str) -> list[str]:
+def mark_of(lines: list[str]) -> str:
+    """Return what separates the cells of a table, by its first lines; blanks: empty."""
+    said = _SAID.match(lines[0]) if lines else None
+    return said[1] if said else _separator(lines)
+
+
+def cells_of(content: str, mark: str, where: str) -> list[str]:
+    """Return the cells of a line; none of a comment, or of one that says the mark.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read; `where` says which line it is.
+    """
+    if content.lstrip().startswith(COMMENTS) or _SAID.match(content):
+        return []
+    content = content.translate(_QUOTES)
     if not mark:
         return content.split()
     try:
@@ -70,7 +82,7 @@ def _cells(content: str, mark: str, where: str) -> list[str]:
 def _separator(lines: list[str]) -> str:
     """Return what separates the cells: blanks, empty, where plain words stand without a mark."""
     content = (line for line in lines if line.strip())
-    own = [line for line in content if not line.lstrip().startswith(_COMMENTS)]
+    own = [line for line in content if not line.lstrip().startswith(COMMENTS)]
     for line in own:
         mark = max(_MARKS, key=line.count)
         if mark in line:

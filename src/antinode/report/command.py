@@ -140,7 +140,7 @@ def _of_study(
     tolerance: float | None,
     command: str,
 ) -> tuple[Document, list[str]]:
-    from antinode.study.design.file import load_study
+    from antinode.study.design.loading import load_study
     from antinode.study.sweep.folder import import_store
 
     from .study_report import study_report

@@ -7,7 +7,7 @@ from pathlib import Path
 from antinode.errors import InputError
 from antinode.show.outcome import draw, print_json, say_written
 from antinode.show.writing import to_json, write_text
-from antinode.study.design.file import load_subject
+from antinode.study.design.loading import load_subject
 from antinode.study.progress import cases_progress
 
 from .along import Range, loci_along, stability_along, stability_map

@@ -31,7 +31,9 @@ def write_parquet(dataset: xarray.Dataset, path: Path) -> None:
         except ImportError:
             continue
         return
-    raise InputError("Parquet needs polars or pyarrow: pip install polars; or name a .csv file")
+    raise InputError(
+        "Parquet needs polars or pyarrow: pip install 'antinode[parquet]'; or name a .csv file"
+    )
 
 
 def _by_polars(columns: dict[str, Any], path: Path) -> None:

@@ -6,28 +6,22 @@ It has the name of a case or beam file, tables `[[inputs]]` for numbers and colu
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import cached_property
 from itertools import pairwise
-from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
 from antinode.beam.families import BENDING, FamilyName
-from antinode.beam.file import TABLES, BeamFile, load_beam
-from antinode.errors import InputError
-from antinode.inputs.explain import validate
-from antinode.inputs.reading import read_beside_case, read_cells, read_toml
+from antinode.beam.file import BeamFile
 from antinode.inputs.units import Frozen, Length, Number, Unit
 from antinode.methods import StudyMethods
 from antinode.response.file import ResponseFile
 from antinode.response.numbers import Asked, asked_of
-from antinode.text import short
-from antinode.vehicle.case import Case, check_real, load_case
+from antinode.vehicle.case import Case, check_real
 
-from .response import read_response
 from .subject import OfBeam, OfVehicle, subject_of
+from .table import DesignTable
 
 Quantity = float | str
 """A number, or a text with the unit of the key that it belongs to."""
@@ -191,7 +185,8 @@ class Design(Frozen):
     table: str | None = Field(
         default=None,
         min_length=1,
-        description="CSV file with a column for each input, in place of [[inputs]] (zip)",
+        description="CSV or Parquet file with a column for each input and a row for each case, in "
+        "place of [[inputs]] (zip)",
     )
 
 
@@ -259,7 +254,9 @@ class StudyFigure(Frozen):
     )
 
 
-class _Choices(Frozen):
+class Choices(Frozen):
+    """What a study chooses, whatever its file names."""
+
     name: str = Field(default="", max_length=100, description="shown in figures and tables")
     inputs: tuple[StudyInput, ...] = Field(default=(), max_length=1000, description="what varies")
     design: Design = Field(default=Design(), description="how the inputs vary together")
@@ -275,7 +272,7 @@ class _Choices(Frozen):
     figure: StudyFigure = Field(default=StudyFigure(), description="what --plot draws")
 
 
-class StudyFile(_Choices):
+class StudyFile(Choices):
     """The file as it stands in TOML."""
 
     case: str = Field(
@@ -289,7 +286,7 @@ class StudyFile(_Choices):
     )
 
 
-class Study(StudyMethods, _Choices):
+class Study(StudyMethods, Choices):
     """A case or a beam file, and what of it varies."""
 
     case: Annotated[Case, AfterValidator(check_real)] | BeamFile = Field(
@@ -297,6 +294,9 @@ class Study(StudyMethods, _Choices):
     )
     response: ResponseFile | None = Field(
         default=None, description="what each case is asked to bear, with its spectra and histories"
+    )
+    table: DesignTable | None = Field(
+        default=None, description="the file of design.table, whose columns are the inputs"
     )
 
     @property
@@ -329,75 +329,3 @@ class Study(StudyMethods, _Choices):
 def shear_output(case: Case | BeamFile) -> OutputName:
     """Return the output that tells what shear does: solved, or estimated where it is left out."""
     return "effect_of_shear" if subject_of(case).solves_shear else "model_error"
-
-
-def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
-    """Read a study file with its case.
-
-    Parameters
-    ----------
-    path : str or Path
-        A TOML file.
-    assignments : iterable of str
-        Overrides of the study file such as ``"design.number=4096"``.
-
-    Raises
-    ------
-    InputError
-        If anything in it is wrong.
-    """
-    path = Path(path)
-    tables, where = read_beside_case(path, assignments, "a study file")
-    file = validate(StudyFile, tables, where)
-    kept: dict[str, Any] = {
-        field.alias or name: getattr(file, name) for name, field in _Choices.model_fields.items()
-    }
-    if "outputs" not in file.model_fields_set:
-        del kept["outputs"]
-    if file.design.table is not None:
-        if file.inputs or file.design.kind != "zip":
-            say = "leave out [[inputs]], and write kind = 'zip'"
-            raise InputError(f"{where}: design.table stands for all inputs; {say}")
-        kept["inputs"] = _read_table(path.parent / file.design.table)
-    case = load_subject(path.parent / file.case)
-    if file.response is not None:
-        kept["response"] = read_response(path.parent / file.response, path.parent / file.case)
-    return Study(case=case, **kept)
-
-
-def load_subject(
-    path: Path, assignments: Iterable[str] = (), *, real: bool = True
-) -> Case | BeamFile:
-    """Read what a study varies something in: the case of a vehicle, or a beam file.
-
-    `real` refuses a case whose modes are complex.
-    """
-    tables = {"beam": {}} if path.suffix.lower() in TABLES else read_toml(path)
-    if "beam" in tables and "vehicle" not in tables:
-        return load_beam(path, assignments)
-    case = load_case(path, assignments)
-    return check_real(case) if real else case
-
-
-def _read_table(path: Path) -> tuple[StudyInput, ...]:
-    """Read a table of cases: a header such as ``speed [m/s], thrust [kN]``, then rows."""
-    rows = read_cells(path)
-    if len(rows) < 2:
-        raise InputError(
-            f"{path}: the table has no rows; give a header, then one row for each case"
-        )
-    header, rows = rows[0], rows[1:]
-    inputs = []
-    for c, cell in enumerate(header.cells):
-        key, bracket, unit = cell.partition("[")
-        if not key.strip() or (bracket and not unit.strip().endswith("]")):
-            raise InputError(f"{path}: header: {short(cell)} is no column; write e.g. speed [m/s]")
-        unit = unit.strip().removesuffix("]").strip()
-        values = []
-        for row in rows:
-            if len(row.cells) != len(header.cells):
-                say = f"{len(row.cells)} cells, but {len(header.cells)} in the header"
-                raise InputError(f"{path}, line {row.line}: {say}; give one for each column")
-            values.append(f"{row.cells[c]} {unit}".strip())
-        inputs.append(StudyInput(key=key.strip(), values=tuple(values)))
-    return tuple(inputs)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -80,6 +80,9 @@ class Points:
         if kind in _SAMPLED:
             u = self._samples(chunk, start, stop)
             columns = [v.quantile(u[:, k]) for k, v in enumerate(self.variables)]
+        elif (table := self.study.table) is not None:
+            rows = table.read(start, stop)
+            columns = [v.from_table(rows) for v in self.variables]
         elif kind == "zip":
             columns = [v.listed[start:stop] for v in self.variables]
         else:
@@ -154,7 +157,7 @@ def points_of(study: Study) -> Points:
     """
     if not study.inputs:
         raise InputError("inputs is empty; give at least one [[inputs]], or design.table")
-    variables = tuple(v for given in study.inputs for v in variables_of(study.subject, given))
+    variables = _variables(study)
     _check_names(variables, {one.name for one in study.asked})
     _check_families(study)
     kind = study.design.kind
@@ -178,7 +181,38 @@ def points_of(study: Study) -> Points:
     return Points(study, variables, cases, shape if kind == "grid" else (cases,))
 
 
+def _variables(study: Study) -> tuple[Variable, ...]:
+    """Return what varies; a column of a table knows where its values are."""
+    found = tuple(v for given in study.inputs for v in variables_of(study.subject, given))
+    if study.table is None:
+        return found
+    table = study.table
+    return tuple(replace(v, column=(table, k)) for k, v in enumerate(found))
+
+
+def check_table(study: Study) -> None:
+    """Read through the table of a study.
+
+    Raises
+    ------
+    InputError
+        If a value is none, or times go back; it says where.
+    """
+    if study.table is None:
+        return
+    variables, before = _variables(study), np.array([-np.inf])
+    for rows in study.table.parts():
+        for v in variables:
+            values = v.from_table(rows)
+            if v.kind == "time":
+                counted = f"{study.table.unit_of_rows}s"
+                _check_times(v.name, np.append(before, values), rows.lines[0] - 1, counted)
+                before = values[-1:]
+
+
 def _length(variable: Variable) -> int:
+    if variable.column is not None:
+        return variable.column[0].rows
     g = variable.given
     return len(g.values) if g.values is not None else (g.number or len(variable.listed))
 
@@ -223,13 +257,21 @@ def _check_values(variable: Variable, *, sampled: bool) -> None:
     if sampled:
         variable.quantile(np.array([0.5]))
         return
-    values, name = variable.listed, variable.name
+    if variable.column is not None:
+        return  # checked when the file was read
+    values = variable.listed
+    if variable.kind == "time":
+        _check_times(variable.name, values, 1)
+
+
+def _check_times(name: str, values: Array, first: int, counted: str = "values") -> None:
+    """Refuse times that go back; `first` is the number of the first value."""
     back = np.diff(values) <= 0
-    if variable.kind == "time" and back.any():
+    if back.any():
         at = int(np.argmax(back))
         raise InputError(
-            f"inputs, {name}: {values[at + 1]:g} s comes after {values[at]:g} s (values {at + 1} "
-            f"and {at + 2}); sort the rows by time, each once"
+            f"inputs, {name}: {values[at + 1]:g} s comes after {values[at]:g} s ({counted} "
+            f"{at + first} and {at + first + 1}); sort the rows by time, each once"
         )
 
 

@@ -19,6 +19,7 @@ from antinode.vehicle.numbers import value_at
 
 from .file import StudyInput
 from .subject import OfBeam, OfVehicle
+from .table import DesignTable, TableRows
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,8 @@ class Variable:
     start: float | None
     weights: Array | None
     key: str = "time"
+    column: tuple[DesignTable, int] | None = None
+    """Of a table that holds the values, and which it is."""
 
     def number(self, value: float | str, what: str) -> float:
         """Return a value of the file in SI, or say what is wrong with it."""
@@ -66,10 +69,40 @@ class Variable:
             raise InputError(f"inputs, {self.name}: {what} is {number}; give a finite number")
         return number
 
+    def from_table(self, rows: TableRows) -> Array:
+        """Return the values of some rows of the table, in SI.
+
+        Raises
+        ------
+        InputError
+            If one is no number; it says where.
+        """
+        assert self.column is not None
+        table, k = self.column
+        unit, cells = table.units[k], rows.columns[k]
+        try:
+            plain = np.array(cells, dtype=float)
+            low, high = self.number(f"0 {unit}".strip(), "0"), self.number(f"1 {unit}".strip(), "1")
+            values = low + (high - low) * plain
+            if np.all(np.isfinite(values)):
+                return values
+        except (ValueError, TypeError, InputError):
+            pass
+        return np.array([self._cell(*each, table) for each in zip(rows.lines, cells, strict=True)])
+
+    def _cell(self, line: int, cell: Any, table: DesignTable) -> float:
+        assert self.column is not None
+        try:
+            return self.number(f"{cell} {table.units[self.column[1]]}".strip(), "value")
+        except InputError as error:
+            raise InputError(f"{table.path}, {table.unit_of_rows} {line}: {error}") from error
+
     @cached_property
     def listed(self) -> Array:
         """Values of a grid or a table, in SI."""
         g = self.given
+        if self.column is not None:
+            return np.concatenate([self.from_table(rows) for rows in self.column[0].parts()])
         if g.values is not None:
             return np.array([self.number(v, "values") for v in g.values])
         if g.distribution is not None and g.number is None:

@@ -22,7 +22,7 @@ from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_beside_case, toml_source
 from antinode.inputs.units import Frozen, Number, Unit
 from antinode.methods import ProblemMethods
-from antinode.study.design.file import load_subject
+from antinode.study.design.loading import load_subject
 from antinode.study.design.subject import OfBeam, OfVehicle, subject_of
 from antinode.vehicle.case import Case, check_real
 from antinode.vehicle.condition import OperatingCondition

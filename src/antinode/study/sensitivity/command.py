@@ -16,7 +16,8 @@ from antinode.errors import InputError
 from antinode.inputs.reading import read_toml
 from antinode.show.outcome import check_plot, draw, print_json
 from antinode.show.printing import fitting, new_table, show_warnings
-from antinode.study.design.file import Study, StudyInput, load_study, load_subject
+from antinode.study.design.file import Study, StudyInput
+from antinode.study.design.loading import load_study, load_subject
 from antinode.study.progress import cases_progress, end_progress
 from antinode.study.sweep.report import by_shear, warning_texts
 from antinode.text import counted, short

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from antinode.errors import ComputationError, InputError
 from antinode.show.outcome import check_plot, draw, print_json, say_written
-from antinode.study.design.file import Study, load_study
+from antinode.study.design.file import Study
+from antinode.study.design.loading import load_study
 from antinode.study.design.points import Points, points_of
 from antinode.study.progress import cases_progress, end_progress
 

@@ -10,7 +10,7 @@ from antinode.errors import InputError
 from antinode.response.file import load_response
 from antinode.response.solve import response_numbers
 from antinode.study.cases.warned import RESPONSE_MESSAGES
-from antinode.study.design.file import load_study
+from antinode.study.design.loading import load_study
 from antinode.study.sensitivity.sensitivity import sensitivity
 from antinode.study.sweep.sweep import sweep
 from cli_run import run
