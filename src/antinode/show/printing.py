@@ -304,7 +304,9 @@ def show_end_forces(out: Console, choices: Sequence[Choice]) -> None:
 def _end_force_table(choices: Sequence[Choice], shown: int) -> Table:
     table = new_table("bending f [Hz], if", *map(str, range(1, shown + 1)))
     for choice in choices:
-        values = [f"{f:.4f}" if math.isfinite(f) else "" for f in choice.frequencies_hz[:shown]]
+        missing = "diverges" if choice.proven else ""
+        found = choice.frequencies_hz[:shown]
+        values = [f"{f:.4f}" if math.isfinite(f) else missing for f in found]
         marks = "" if choice.proven else " (not proven)"
         _row(table, choice.name + (" (this file)" if choice.stated else marks), *values)
     return table

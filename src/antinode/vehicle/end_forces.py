@@ -13,11 +13,14 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.families import BENDING
+from antinode.modes.backends import choose, for_one
+from antinode.modes.following import eigenvalues_alone
 from antinode.modes.hertz import error_hz, hertz
 from antinode.modes.result import ModalResult, null
 from antinode.modes.rigid import rigid_modes_of
 from antinode.riccati.chain import Chain
-from antinode.riccati.following_roots import neighbours
+from antinode.riccati.following_roots import Neighbours, neighbours
+from antinode.riccati.roots import CountingError
 
 from .case import Case
 
@@ -42,7 +45,7 @@ class Choice:
     follow : tuple of float
         Shares of the cavitator's drag, and of the thrust, that turn with the body.
     frequencies_hz, error_hz : array, shape (modes,)
-        [Hz]; NaN where they were not found.
+        [Hz]; NaN where a mode diverges, or they were not found.
     proven : bool
         Whether it is certain that none is missing.
     stated : bool
@@ -115,6 +118,8 @@ def _solved(
     zeros = rigid if not np.any(chain.axial_force) else 1
     with np.errstate(all="ignore"):
         found = neighbours(chain, known, rigid, zeros, _WIDTH)
+        if not found.eigenvalues:
+            found = _anew(chain, len(known), rigid, zeros)
     if not found.eigenvalues:
         none = np.full(len(known), np.nan)
         return Choice(name, follow, none, none, proven=False, stated=False)
@@ -122,3 +127,18 @@ def _solved(
     half = np.array([v.bracket[1] - v.bracket[0] for v in found.eigenvalues])
     off = error_hz(omega2, 2 * error + half)
     return Choice(name, follow, hertz(omega2), off, found.proven, stated=False)
+
+
+def _anew(chain: Chain, number: int, rigid: int, zeros: int) -> Neighbours:
+    """Solve a choice none of whose modes is next to those known: where some diverge, say."""
+    wanted = rigid + number
+    try:
+        solver = choose(for_one(len(chain.length), wanted))
+        values = eigenvalues_alone(solver, chain, wanted, zeros, _WIDTH)
+    except (CountingError, FloatingPointError):
+        return Neighbours([], proven=False)
+    moved = sorted((v for v in values if v.omega2 or v.imaginary), key=lambda v: v.omega2)
+    elastic = moved[rigid - zeros :][:number]
+    if len(elastic) < number or any(v.imaginary for v in elastic):
+        return Neighbours([], proven=False)
+    return Neighbours(elastic, proven=True)

@@ -80,3 +80,21 @@ def test_a_flutter_is_named_with_its_growth(tmp_path):
     assert decays["kind"] == "elastic"
     assert grows["frequency_hz"] == decays["frequency_hz"]
     assert grows["growth_rate_per_s"] == pytest.approx(-decays["growth_rate_per_s"])
+
+
+def test_a_choice_whose_first_mode_diverges_is_solved_as_well(silent, monkeypatch):
+    """Under 300 kN of fixed direction bending 1 diverges; the others vibrate, proven by counts."""
+    thrust = ("--set", "condition.thrust=300kN", "--set", "solve.modes=3")
+    told = json.loads(run("modes", silent, *thrust, "--json").out)
+    beside = next(c for c in told["end_forces"] if c["name"] == "fixed directions")
+    assert beside["proven"]
+    assert beside["frequencies_hz"][0] is None
+    assert beside["error_hz"][0] is None
+    case = an.load_case(silent, ["model.end_force=fixed_direction", "condition.thrust=300kN"])
+    exact = [m for m in an.solve_modes(case, 3, tolerance=1e-10).family("bending") if m.number]
+    for mode, one, error in zip(exact, beside["frequencies_hz"], beside["error_hz"], strict=True):
+        assert mode.kind == ("divergent" if one is None else "elastic")
+        assert one is None or abs(one - mode.frequency_hz) <= error
+    monkeypatch.setenv("COLUMNS", "120")
+    words = " ".join(run("modes", silent, *thrust).out.split())
+    assert "fixed directions diverges 7.9701 17.9956" in words
