@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers
 from antinode.errors import AntinodeError, ComputationError, InputError
 
 from .attachments import PointMass
@@ -116,8 +116,9 @@ def waves(N: Array, EI: Array, length: Array) -> tuple[Array, Array]:
 
 def _check_axial_force(beam: Beam) -> None:
     """Refuse a force that is out of all proportion to the bending stiffness."""
-    buckled, N = _waves_of(beam)[0], beam.axial_force
+    buckled = _waves_of(beam)[0]
     if not buckled <= MOST_BUCKLED:
+        N = beam.axial_force_at(*_places(beam))
         raise InputError(
             f"the axial force of up to {np.max(N):.3g} N would make about {buckled:.0f} modes "
             f"diverge; at most {MOST_BUCKLED:g} are computed: check the units of axial force and "
@@ -137,7 +138,7 @@ def check_tension(beam: Beam) -> None:
     N, EI = beam.axial_force, beam.bending_stiffness
     if not beam.axial_acceleration and -N.min() * beam.length**2 <= MOST_TENSION * EI.min():
         return
-    tension = _waves_of(beam)[1]
+    tension, N = _waves_of(beam)[1], beam.axial_force_at(*_places(beam))
     if not tension <= MOST_TENSION:
         raise InputError(
             f"the tension of up to {-np.min(N):.3g} N is about {tension:.2g} times "
@@ -149,8 +150,13 @@ def check_tension(beam: Beam) -> None:
 
 def _waves_of(beam: Beam) -> tuple[float, float]:
     """Return `waves` of a beam."""
-    interval, fraction = np.arange(len(beam.x) - 1)[:, None], SAMPLES[None]
+    interval, fraction = _places(beam)
     N = beam.axial_force_at(interval, fraction)
     EI = beam.column_at("bending_stiffness", interval, fraction)
     buckled, tension = waves(N, EI, np.diff(beam.x))
     return float(buckled), float(tension)
+
+
+def _places(beam: Beam) -> tuple[Integers, Array]:
+    """Return where a beam is sampled: intervals, and shares of their lengths."""
+    return np.arange(len(beam.x) - 1)[:, None], SAMPLES[None]

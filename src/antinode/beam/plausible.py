@@ -86,12 +86,17 @@ OF_MANY = (
     f"[kg/m]; {_MEANT}",
     f"the section's radius of gyration sqrt(EI/EA) is more than {STOUTEST:g} of the length, so "
     "this is no beam: check the units of bending_stiffness [N m^2], axial_stiffness [N] and x [m]",
+    f"the axial force strains the beam by N/EA > {MOST_STRAIN:.0%}, which hardly any material "
+    "bears (metals yield below 1%): check the units of axial_force [N] and axial_stiffness [N]; "
+    f"{_MEANT}",
 )
 """What is doubted of many bodies without attachments, in the order of `doubts_of_many`."""
 
 
-def doubts_of_many(mass: Array, EI: Profile, EA: Profile) -> npt.NDArray[np.bool_]:
-    """Tell which of many bodies have numbers that are not of this world, shape (3, bodies).
+def doubts_of_many(
+    mass: Array, EI: Profile, EA: Profile, strained: npt.NDArray[np.bool_]
+) -> npt.NDArray[np.bool_]:
+    """Tell which of many bodies have numbers that are not of this world, shape (4, bodies).
 
     Parameters
     ----------
@@ -99,11 +104,14 @@ def doubts_of_many(mass: Array, EI: Profile, EA: Profile) -> npt.NDArray[np.bool
         Of each [kg].
     EI, EA : Profile
         Of each, or of them all.
+    strained : array of bool, shape (bodies,)
+        Which are strained by more than `MOST_STRAIN`.
     """
     length = float(EA.x[-1] - EA.x[0])
     bending, axial = 1 / mean_compliance(EI), 1 / mean_compliance(EA)
     speed, r = np.sqrt(axial * length / mass), np.sqrt(bending / axial)
-    told = speed > FASTEST, speed < SLOWEST, r > STOUTEST * length
+    fast, slow = speed > FASTEST, speed < SLOWEST
+    told = fast, slow, r > STOUTEST * length, strained & ~(fast | slow)
     return np.stack(np.broadcast_arrays(*told))
 
 
@@ -125,17 +133,23 @@ def _wave_speed(loaded: float, bare: float) -> Iterator[str]:
         )
 
 
-def _strain(beam: Beam) -> Iterator[str]:
-    """Doubt what the axial force does to the length."""
+def largest_strain(beam: Beam) -> tuple[float, float, float]:
+    """Return abs(N)/EA where it is largest, N there [N], and x [m]; of a beam that has EA."""
     k = np.arange(len(beam.x) - 1)
     ends = [np.full(len(k), t) for t in (0.0, 1.0)]
     N = np.array([beam.axial_force_at(k, t) for t in ends])
     strain = np.abs(N) / np.array([beam.column_at("axial_stiffness", k, t) for t in ends])
     side, row = np.unravel_index(np.argmax(strain), strain.shape)
-    if strain[side, row] > MOST_STRAIN:
+    return float(strain[side, row]), float(N[side, row]), float(beam.x[row + side])
+
+
+def _strain(beam: Beam) -> Iterator[str]:
+    """Doubt what the axial force does to the length."""
+    strain, N, x = largest_strain(beam)
+    if strain > MOST_STRAIN:
         yield (
-            f"the axial force of {N[side, row]:.4g} N at x = {beam.x[row + side]:g} m strains the "
-            f"beam by N/EA = {strain[side, row]:.0%}, which hardly any material bears (metals "
+            f"the axial force of {N:.4g} N at x = {x:g} m strains the "
+            f"beam by N/EA = {strain:.0%}, which hardly any material bears (metals "
             "yield below 1%): check the units of axial_force [N] and axial_stiffness [N]; " + _MEANT
         )
 

@@ -306,6 +306,24 @@ class ManyBeams:
         found[rows] = self._beyond_limits(rows)
         return found
 
+    def strained(self, most: float) -> npt.NDArray[np.bool_]:
+        """Tell which cases have an axial force that strains the body by more than abs(N)/EA."""
+        cases, masses = self.loads.cases, self.loads.mass_distribution
+        column, how = cases.column("axial_stiffness"), cases.vehicle.interpolation
+        EA = Profile.of_rows(cases.vehicle.stations.x, column, how).between(masses.x)
+        found = np.zeros(cases.cases, dtype=bool)
+        rows = np.flatnonzero(~(self._largest_force <= most * EA.min(axis=(-2, -1))))
+        for some, left, right in self._divided(rows, masses.x):
+            middle = (left + right) / 2
+            interval, at = masses.interval(middle), np.stack([left, right], axis=-1)
+            N = self._at(some, interval, at, self._jumps(some, middle)).axial_force
+            low, high = masses.x[interval], masses.x[interval + 1]
+            share = (at - low[..., None]) / (high - low)[..., None]
+            a, b = (_taken(EA[..., k], some, interval)[..., None] for k in (0, 1))
+            there = a if how == "step" else interpolated(a, b, share, how)
+            found[some] = np.any(np.abs(N) > most * there, axis=(1, 2))
+        return found
+
     @cached_property
     def _largest_force(self) -> Array:
         """A bound on abs(N) of every case [N]."""

@@ -1,5 +1,7 @@
 """Guards against forces of a wrong unit let through what the world is built of."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -111,3 +113,11 @@ def test_a_short_taut_piece_is_no_string():
     """The largest tension over the smallest stiffness times the whole length squared is 1e11."""
     beam = Beam.from_stations([0, 0.01, 1], 1.0, [1.0, 1e3, 1e3], None, [-1e11, 0, 0])
     solve_modes(beam, 1, families=["bending"])
+
+
+def test_the_force_named_is_that_of_the_loads_too():
+    """N of an acceleration alone stands in no column."""
+    beam = Beam.from_stations([0, 1, 2], 1.0, 1.0, ends=Ends("free", "clamped"))
+    loaded = replace(beam, axial_acceleration=1e6)
+    with pytest.raises(InputError, match=r"the axial force of up to 1\.9\de\+06 N"):
+        check_limits(loaded)

@@ -13,6 +13,7 @@ from antinode.arrays import Array, Integers
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.limits import check_limits
+from antinode.beam.plausible import MOST_STRAIN, largest_strain
 from antinode.errors import AntinodeError
 from antinode.riccati.chain import Chain
 from antinode.study.design.file import LOAD_OUTPUTS
@@ -38,6 +39,8 @@ class CaseBeams:
         Loads by the names of `LOAD_OUTPUTS`, shape (cases,).
     doubts : array of bool, shape (warnings, cases)
         Which cases each of the `load_messages` concerns.
+    strained : array of bool, shape (cases,)
+        Where the axial force strains the body by more than any material bears.
     exact : bool
         Whether nothing varies inside the segments of any chain.
     chains : callable
@@ -47,6 +50,7 @@ class CaseBeams:
     reason: Integers
     scalars: Mapping[str, Array]
     doubts: npt.NDArray[np.bool_]
+    strained: npt.NDArray[np.bool_]
     exact: bool
     chains: Callable[[Integers, int], list[Chains]] = field(repr=False)
 
@@ -66,9 +70,11 @@ def _on_arrays(cases: Cases, reason: Integers) -> CaseBeams:
     with np.errstate(all="ignore"):
         far = beams.beyond_limits()
         soft = beams.beyond_shear()
+        strained = beams.strained(MOST_STRAIN)
     reason = np.where(far & (reason == 0), BEYOND_LIMITS, reason)
     reason = np.where(soft & (reason == 0), NO_BEAM, reason)
-    return CaseBeams(reason, loads.numbers, _doubts(loads), beams.exact, beams.chains)
+    doubts = _doubts(loads)
+    return CaseBeams(reason, loads.numbers, doubts, strained, beams.exact, beams.chains)
 
 
 def load_messages(case: Case) -> tuple[str, ...]:
@@ -84,7 +90,9 @@ def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
     """Build every case by itself."""
     beams: dict[int, Beam] = {}
     scalars = {name: np.full(len(cases), np.nan) for name in LOAD_OUTPUTS}
-    doubts = np.zeros((len(load_messages(cases.study.vehicle_case)), len(cases)), dtype=bool)
+    messages = load_messages(cases.study.vehicle_case)
+    doubts = np.zeros((len(messages), len(cases)), dtype=bool)
+    strained = np.zeros(len(cases), dtype=bool)
     for i in np.flatnonzero(reason == 0).tolist():
         try:
             case = cases.case(i)
@@ -94,12 +102,15 @@ def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
         except AntinodeError:
             reason[i] = NO_BEAM
             continue
-        beams[i], doubts[:, i] = beam, _doubts(many)[:, 0]
+        beams[i] = beam
+        told = {warning.message for warning in many.warnings if warning.concerns[0]}
+        doubts[:, i] = [message in told for message in messages]
+        strained[i] = largest_strain(beam)[0] > MOST_STRAIN
         for name in LOAD_OUTPUTS:
             scalars[name][i] = many.numbers[name][0]
     exact = not any(np.any(b.varies(BENDING)) for b in beams.values())
     chains = partial(_chains_of, beams)
-    return CaseBeams(reason, scalars, doubts, exact, chains)
+    return CaseBeams(reason, scalars, doubts, strained, exact, chains)
 
 
 def _chains_of(beams: Mapping[int, Beam], rows: Integers, refinement: int) -> list[Chains]:

@@ -79,7 +79,7 @@ _Solved = tuple[Integers, Integers, Array, dict[str, Array]]
 def _of_vehicles(cases: Cases, size: int) -> _Solved:
     beams = beams_of(cases)
     found, shear = _every_family(cases, beams, size)
-    doubts = np.concatenate([cases.doubts(beams.scalars["mass"]), beams.doubts])
+    doubts = np.concatenate([cases.doubts(beams.scalars["mass"], beams.strained), beams.doubts])
     bits = warned(found, shear, doubts)
     loaded = found.reason < OUT_OF_RANGE
     scalars = {name: np.where(loaded, values, np.nan) for name, values in beams.scalars.items()}

@@ -112,7 +112,7 @@ class Cases:
         numbers = (values[i] for keys, values in self.numbers.items() if _is_of_body(keys))
         return b"".join(np.ascontiguousarray(v).tobytes() for v in numbers)
 
-    def doubts(self, mass: Array) -> npt.NDArray[np.bool_]:
+    def doubts(self, mass: Array, strained: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
         """Tell which bodies, of some mass [kg], are not of this world; `beam.plausible` has why."""
         vehicle = self.study.vehicle_case.vehicle
 
@@ -122,7 +122,8 @@ class Cases:
             return Profile.of_rows(vehicle.stations.x, rows, vehicle.interpolation)
 
         with np.errstate(all="ignore"):
-            return doubts_of_many(mass, profile("bending_stiffness"), profile("axial_stiffness"))
+            EI, EA = profile("bending_stiffness"), profile("axial_stiffness")
+            return doubts_of_many(mass, EI, EA, strained)
 
     def outside(self) -> npt.NDArray[np.bool_]:
         """Tell in which cases an input is outside the range that the case allows."""

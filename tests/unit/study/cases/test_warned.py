@@ -53,6 +53,23 @@ inputs = [
 solve.modes = 2
 """
 
+STRAINED = """
+inputs = [
+  { key = "vehicle.stations.axial_stiffness.3", values = [58e6, 0.4e6, 20e3] },
+  { key = "condition.thrust", values = [50e3, 300e3] },
+]
+solve.modes = 2
+tracking.track = false
+"""
+STRAINED_ONE_BY_ONE = """
+inputs = [
+  { key = "vehicle.stations.axial_stiffness.7", values = [150e6, 1e6, 100e3] },
+  { key = "model.planing_drag_factor", values = [0, 1] },
+]
+solve.modes = 2
+tracking.track = false
+"""
+
 
 @pytest.fixture(scope="module")
 def case(tmp_path_factory):
@@ -77,7 +94,10 @@ def alike(message, sentence):
     return all(any(w == other for other in words) for w in skeleton)
 
 
-@pytest.mark.parametrize("text", [SMALL_CAVITY, HEAVY, ONE_BY_ONE, ODD_BODIES])
+@pytest.mark.parametrize(
+    "text",
+    [SMALL_CAVITY, HEAVY, ONE_BY_ONE, ODD_BODIES, STRAINED, STRAINED_ONE_BY_ONE],
+)
 def test_every_case_warns_as_it_does_alone(case, text):
     made = study(case, text)
     found, points = sweep(made), points_of(made)
@@ -93,6 +113,8 @@ def test_every_case_warns_as_it_does_alone(case, text):
                 last = sentence.rpartition(": ")[2]
                 assert any(alike(m, sentence) or m.endswith(last) for m in own), sentence
         start += len(cases)
+    strained = [w for w in found.attrs["warnings"] if "N/EA > 10%" in w["message"]]
+    assert bool(strained) == (text in (STRAINED, STRAINED_ONE_BY_ONE))
     assert found.attrs["warnings"] == counted_warnings(
         messages(made), [found.warned.values], points.cases
     )
@@ -180,3 +202,10 @@ def test_flutter_is_not_lost_among_cases(case):
     (told,) = [w for w in data.attrs["warnings"] if "flutter, by end forces" in w["message"]]
     assert (told["count"], told["first_case"]) == (2, 1)
     assert np.all(np.isfinite(data.frequency_hz))
+
+
+def test_a_last_row_that_one_case_alone_has_otherwise(case):
+    """It closes a stepped table, and says so of the case as it stands, or not at all."""
+    text = STRAINED_ONE_BY_ONE.replace("axial_stiffness.7", "axial_stiffness.19")
+    found = sweep(study(case, text))
+    assert found.attrs["failed"] == 0
