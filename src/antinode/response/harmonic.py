@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -25,6 +26,7 @@ from .peaks import Peak, find_peaks, with_resonances
 from .quantities import Drive, Output
 
 _DOUBTFUL = 0.5  # half-widths of a resonance
+_AT_ONE = 1e-6  # relative, of a peak and a resonance that are one
 _ABOVE = 1.2  # of the highest frequency up to which resonances are looked up
 
 
@@ -188,6 +190,15 @@ def resonance_warnings(beam: Beam, modes: tuple[Basis, ...], low: float, high: f
     ]
 
 
+def _without_bound(peaks: Sequence[Sequence[Peak]], undamped_hz: Array) -> list[int]:
+    """Return the outputs that have a peak at a resonance without damping: it has no height."""
+    return [
+        row
+        for row, found in enumerate(peaks)
+        if any(np.any(np.abs(p.frequency_hz / undamped_hz - 1) < _AT_ONE) for p in found)
+    ]
+
+
 @out_of_range_is_an_error()
 def solve_harmonic(problem: Problem) -> HarmonicResult:
     """Compute the response that a file asks for.
@@ -222,6 +233,8 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
         return np.asarray(np.abs(np.einsum("odk,d->ok", at(places), amplitude)))
 
     peaks = find_peaks(sizes, grid, sizes(grid)) if len(grid) > 2 else [[] for _ in outputs]
+    wrong = wrong @ np.abs(amplitude)
+    wrong[_without_bound(peaks, resonance[ratio == 0.0])] = np.inf
     warnings = resonance_warnings(problem.beam, modes, float(frequency[0]), float(frequency[-1]))
     verdicts = []
     for row, item in enumerate(items, shown):
@@ -237,7 +250,7 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
         outputs[:shown],
         shares.sum(axis=1)[:shown],
         (error @ np.abs(amplitude))[:shown],
-        (wrong @ np.abs(amplitude))[:shown],
+        wrong[:shown],
         shares[:shown],
         drives,
         file.drive_names,

@@ -171,7 +171,8 @@ def history_from(source: object, unit: str, folder: Path, where: str) -> History
                 f"{where}: unknown key {str(key)[:40]}; allowed are {', '.join(_KEYS)}"
             )
     height = in_si(source.get("height", 1.0), unit, f"{where}.height")
-    duration = in_si(source.get("duration"), "s", f"{where}.duration")
+    missing = 1.0 if source["shape"] == "step" else None  # a step stays as it is
+    duration = in_si(source.get("duration", missing), "s", f"{where}.duration")
     start = in_si(source.get("start", 0.0), "s", f"{where}.start")
     if not duration > 0:
         raise InputError(f"{where}.duration is {duration:g} s; it must be above 0")

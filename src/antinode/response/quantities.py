@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple, get_args
 
 from antinode.arguments import choice, numbers
+from antinode.beam.attachments import Dashpot, PointFeedback, Spring
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES, Family, FamilyName, tells
 from antinode.errors import InputError
@@ -237,6 +238,12 @@ def check_places(beam: Beam, drives: tuple[Drive, ...], outputs: tuple[Output, .
                 f"{what}: the beam has no {' and no '.join(absent)}; add the column to its "
                 "stations, or ask for another direction"
             )
+        if isinstance(item, Base) and not _is_held(beam, item):
+            raise InputError(
+                f"{what}: nothing holds this beam along '{item.direction}', so that they move "
+                "nothing: hold it by its ends, a spring, a dashpot or a foundation, or give "
+                "[[forces]]"
+            )
         places = [item.x] if isinstance(item, Output) else _places(item)
         for x in places:
             if not low - 1e-9 * (high - low) <= x <= high + 1e-9 * (high - low):
@@ -246,6 +253,20 @@ def check_places(beam: Beam, drives: tuple[Drive, ...], outputs: tuple[Output, .
                 )
         if isinstance(item, Force) and item.to is not None and not item.to > item.x:
             raise InputError(f"{what}: it must end behind its start; exchange x and to")
+
+
+def _is_held(beam: Beam, base: Base) -> bool:
+    """Tell whether the ground moves a beam, be it by a dashpot alone."""
+    lateral, foundation = base.direction == "lateral", beam.foundation_stiffness
+    ends = (beam.ends.left, beam.ends.right) if lateral else beam.ends.of(base.family)
+    names = ("translational", "coupling") if lateral else (base.direction,)
+    grounded = [i for i in beam.attachments if isinstance(i, Spring | Dashpot)]
+    return (
+        any(end in ("clamped", "pinned", "fixed") for end in ends)
+        or any(getattr(item, name, 0.0) for item in grounded for name in names)
+        or (lateral and any(isinstance(i, PointFeedback) for i in beam.attachments))
+        or (lateral and foundation is not None and bool(foundation.any()))
+    )
 
 
 def _places(drive: Drive) -> list[float]:

@@ -29,7 +29,7 @@ def factor_of(written: str, unit: str) -> float:
     written : str
         As it stands in a file: ``"g"``, ``"kN"``, ``"g^2/Hz"``.
     unit : str
-        SI, or ``"(unit)^2/Hz"`` of a spectrum.
+        SI, or that of a spectrum: ``"N^2/Hz"``, ``"(m/s^2)^2/Hz"``.
 
     Raises
     ------
@@ -37,8 +37,8 @@ def factor_of(written: str, unit: str) -> float:
         If it is no unit of that kind.
     """
     written = written.strip()
-    if unit.endswith(")^2/Hz"):
-        squared = unit.removeprefix("(").removesuffix(")^2/Hz")
+    if unit.endswith("^2/Hz"):
+        squared = unit.removesuffix("^2/Hz").removeprefix("(").removesuffix(")")
         found = _SQUARE.fullmatch(written)
         if found is None:
             raise ValueError(f"'{written}' is no unit of {unit}")
@@ -50,7 +50,7 @@ def factor_of(written: str, unit: str) -> float:
 
 def spectral(unit: str) -> str:
     """Return the unit of a spectral density of a quantity."""
-    return f"({unit})^2/Hz"
+    return f"{unit}^2/Hz" if unit.isalnum() else f"({unit})^2/Hz"
 
 
 def in_si(value: object, unit: str, where: str) -> float:
@@ -61,6 +61,8 @@ def in_si(value: object, unit: str, where: str) -> float:
     InputError
         If it is neither.
     """
+    if value is None:
+        raise InputError(f"{where} is missing; give it, e.g. '1 {unit}'")
     try:
         if isinstance(value, str) and (unit == "m/s^2" or unit.endswith("^2/Hz")):
             size, written = split_number(value)
