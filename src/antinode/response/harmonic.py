@@ -190,13 +190,13 @@ def resonance_warnings(beam: Beam, modes: tuple[Basis, ...], low: float, high: f
     ]
 
 
-def _without_bound(peaks: Sequence[Sequence[Peak]], undamped_hz: Array) -> list[int]:
-    """Return the outputs that have a peak at a resonance without damping: it has no height."""
-    return [
-        row
-        for row, found in enumerate(peaks)
-        if any(np.any(np.abs(p.frequency_hz / undamped_hz - 1) < _AT_ONE) for p in found)
+def _of_peaks(error: Array, peaks: Sequence[Sequence[Peak]], undamped_hz: Array) -> Array:
+    """Return errors of peaks of outputs: one at a resonance without damping has no height."""
+    endless = [
+        any(np.any(np.abs(peak.frequency_hz / undamped_hz - 1) < _AT_ONE) for peak in found)
+        for found in peaks
     ]
+    return np.where(endless, np.inf, error)
 
 
 @out_of_range_is_an_error()
@@ -233,8 +233,7 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
         return np.asarray(np.abs(np.einsum("odk,d->ok", at(places), amplitude)))
 
     peaks = find_peaks(sizes, grid, sizes(grid)) if len(grid) > 2 else [[] for _ in outputs]
-    wrong = wrong @ np.abs(amplitude)
-    wrong[_without_bound(peaks, resonance[ratio == 0.0])] = np.inf
+    wrong = _of_peaks(wrong @ np.abs(amplitude), peaks, resonance[ratio == 0.0])
     warnings = resonance_warnings(problem.beam, modes, float(frequency[0]), float(frequency[-1]))
     verdicts = []
     for row, item in enumerate(items, shown):
