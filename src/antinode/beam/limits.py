@@ -31,6 +31,8 @@ MOST_BUCKLED = 12.0
 """Modes that the compression may make diverge, about."""
 MOST_TENSION = 1e9
 """Largest square of the integral of sqrt(tension/EI): tension length^2 over bending stiffness."""
+MOST_IN_SHEAR = 1e3
+"""Axial force over the stiffness in shear: of a rubber bearing it is some ten."""
 SAMPLES = (np.arange(32) + 0.5) / 32
 """Where intervals are sampled for both, as shares of their lengths."""
 
@@ -67,6 +69,7 @@ def check_limits(beam: Beam) -> None:
                 _check_property(name, counted, name not in ALLOWED)
     _check_point_masses(beam)
     _check_axial_force(beam)
+    _check_force_in_shear(beam)
 
 
 def _check_point_masses(beam: Beam) -> None:
@@ -125,6 +128,27 @@ def _check_axial_force(beam: Beam) -> None:
             "bending_stiffness"
         )
     check_tension(beam)
+
+
+def _check_force_in_shear(beam: Beam) -> None:
+    """Refuse a force that is out of all proportion to the stiffness in shear."""
+    if beam.shear_stiffness is None or not beam.has_shear or beam.is_unloaded:
+        return
+    N, kGA = (np.abs(each) for each in _in_shear(beam))
+    share = N / kGA
+    if np.any(share > MOST_IN_SHEAR):
+        k = np.unravel_index(np.argmax(share), N.shape)
+        raise InputError(
+            f"the axial force of {N[k]:.3g} N in interval {k[0] + 1} is more than "
+            f"{MOST_IN_SHEAR:g} times the stiffness in shear of {kGA[k]:.3g} N there: check the "
+            "units of axial force and shear_stiffness (of a vehicle EA/4.9 unless it is given)"
+        )
+
+
+def _in_shear(beam: Beam) -> tuple[Array, Array]:
+    """Return N and kGA [N] at the samples of all intervals."""
+    places = _places(beam)
+    return beam.axial_force_at(*places), beam.column_at("shear_stiffness", *places)
 
 
 def check_tension(beam: Beam) -> None:

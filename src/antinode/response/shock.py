@@ -59,13 +59,14 @@ def srs(
     array, shape (n,)
         In the unit of the record.
     """
-    return _spectrum(time_s, acceleration, frequency_hz, ratio)[0]
+    spectrum, _ = _spectrum(time_s, acceleration, frequency_hz, ratio)
+    return spectrum
 
 
 def _spectrum(
     time_s: npt.ArrayLike, acceleration: npt.ArrayLike, frequency_hz: npt.ArrayLike, ratio: float
-) -> Array:
-    """Return the spectrum, and how far its maxima may be off between points, shape (2, n)."""
+) -> tuple[Array, Array]:
+    """Return the spectrum, and how far its maxima may be off between points, (n,) each."""
     t, a = numbers("time_s", time_s), numbers("acceleration", acceleration)
     ratio = within("ratio", ratio, 0.0, 0.999, " (1/(2 Q))")
     if t.ndim != 1 or t.shape != a.shape or len(t) < 2:
@@ -76,7 +77,8 @@ def _spectrum(
     if not (np.isfinite(t).all() and np.isfinite(a).all()):
         raise InputError("every time and acceleration must be a finite number")
     h = float((t[-1] - t[0]) / (len(t) - 1))
-    return np.array([_largest(a, h, f, ratio) for f in checked_frequencies(frequency_hz)]).T
+    found = [_largest(a, h, f, ratio) for f in checked_frequencies(frequency_hz)]
+    return np.array([value for value, _ in found]), np.array([off for _, off in found])
 
 
 def _largest(a: Array, h: float, f: float, ratio: float) -> tuple[float, float]:

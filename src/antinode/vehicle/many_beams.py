@@ -18,7 +18,7 @@ import numpy.typing as npt
 from antinode.arrays import Array, Integers, Interpolation
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
-from antinode.beam.limits import MOST_BUCKLED, MOST_TENSION, SAMPLES, waves
+from antinode.beam.limits import MOST_BUCKLED, MOST_IN_SHEAR, MOST_TENSION, SAMPLES, waves
 from antinode.beam.mass import mass_within
 from antinode.beam.profile import Profile, interpolated
 from antinode.beam.representation import GAUSS, coarsest_steps, halved
@@ -288,7 +288,8 @@ class ManyBeams:
             interval = self.loads.mass_distribution.interval(middle)
             at = np.stack([left, middle, right], axis=-1)
             values = self._at(some, interval, at, self._jumps(some, middle))
-            bad = values.more["shear_stiffness"] - sign * values.axial_force <= 0
+            kGA, N = values.more["shear_stiffness"], values.axial_force
+            bad = (kGA - sign * N <= 0) | (np.abs(N) > MOST_IN_SHEAR * kGA)
             found[some] = np.any(bad, axis=(1, 2))
         return found
 

@@ -121,3 +121,18 @@ def test_the_force_named_is_that_of_the_loads_too():
     loaded = replace(beam, axial_acceleration=1e6)
     with pytest.raises(InputError, match=r"the axial force of up to 1\.9\de\+06 N"):
         check_limits(loaded)
+
+
+@pytest.mark.parametrize("form", ["haringx", "engesser"])
+def test_a_force_far_beyond_the_stiffness_in_shear_is_refused_at_once(form):
+    """N/kGA of a rubber bearing is some ten; of 1e8 the modes would take minutes to fail."""
+    N = 1e-3 if form == "haringx" else -1e-3
+    columns = {"shear_stiffness": [1e-11, 1e-11], "shear_form": form}
+    for factor, refused in ((1.0, True), (1e-7, False)):
+        force = [factor * N] * 2
+        beam = Beam.from_stations([0, 1], 1.0, 1.0, None, force, **columns)
+        if refused:
+            with pytest.raises(InputError, match="1000 times the stiffness in shear of 1e-11 N"):
+                check_limits(beam)
+        else:
+            check_limits(beam)

@@ -88,3 +88,13 @@ def test_longitudinal_modes_have_no_shear(case):
     found = compute_chunk(points_of(study(case, text)), 0)["model_error"]
     assert np.isfinite(found[:, :2]).all()
     assert np.isnan(found[:, 2:]).all()
+
+
+def test_a_force_far_beyond_the_stiffness_in_shear_is_no_beam(tmp_path):
+    """As the case alone says it: EA a billion times too small, and with it kGA."""
+    run("init", tmp_path)
+    case = an.load_case(tmp_path / "case.toml")
+    text = 'inputs = [{ key = "axial_stiffness", values = [1, 1e-14] }]\nsolve.modes = 1\n'
+    found = an.sweep(study(case, text))
+    assert found.reason.values.tolist() == [0, 16]
+    assert "times the stiffness in shear" in str(found.attrs)
