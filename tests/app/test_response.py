@@ -2,6 +2,8 @@
 
 import statistics
 import time
+from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -133,5 +135,31 @@ def test_another_output_by_the_menu(chromium, address):
         drawing, [float(shown[0])], drives, outputs, damping=an.Damping(0.02)
     )
     assert float(shown[1]) == pytest.approx(2000.0 * abs(exact.values[0, 0, 0]), rel=1e-4)
+    assert tab.errors == []
+    tab.page.close()
+
+
+@pytest.mark.parametrize("title", ["Vehicle in its cavity", "Mode shapes", "chosen panel", "Body"])
+def test_a_panel_is_saved_as_a_picture(chromium, address, title):
+    tab = Tab(chromium, address + '?panel="response"')
+    tab.page.wait_for_selector(".an-peaks:not(.an-quick) td")
+    tab.page.get_by_label(f"Enlarge: {title}").click()
+    large = tab.page.locator(".an-large")
+    with tab.page.expect_download() as waiting:
+        large.get_by_role("button", name="Save as PNG").click()
+    content = Path(waiting.value.path()).read_bytes()
+    assert content.startswith(b"\x89PNG")
+    assert len(content) > 3000  # something is on it
+    vector = large.get_by_role("button", name="Save as SVG")
+    assert vector.is_visible() == (title != "Body")
+    if title != "Body":
+        with tab.page.expect_download() as waiting:
+            vector.click()
+        text = Path(waiting.value.path()).read_text(encoding="utf-8")
+        ElementTree.fromstring(text)  # it is whole
+        wanted = {"Vehicle in its cavity": "thrust 50", "chosen panel": "lateral force at 4.8 m"}
+        assert wanted.get(title, "from the nose") in text
+    numbers = tab.page.evaluate("window.antinode.views.modes.instance.getOption().series.length")
+    assert numbers == 3
     assert tab.errors == []
     tab.page.close()

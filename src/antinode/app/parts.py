@@ -28,7 +28,18 @@ def section(title: str) -> Iterator[None]:
 
 
 def enlarge_button(title: str) -> None:
-    """Build the button that lets a panel fill the page, and again gives it its place."""
+    """Build the button that lets a panel fill the page, and again gives it its place.
+
+    Where it fills the page, buttons beside it save its picture and copy its numbers.
+    """
+    with ui.element("div").classes("an-modes an-saving"):
+        for kind in ("svg", "png"):
+            picture = ui.button(kind.upper(), color=None).classes(f"an-{kind}button")
+            picture.props(f'{SMALL} aria-label="Save as {kind.upper()}: {title}"')
+            script = f"(e) => window.antinode.saveNear(e.currentTarget, '{kind}')"
+            picture.on("click", js_handler=script)
+        copy = ui.button("Copy", color=None).props(f'{SMALL} aria-label="Copy numbers: {title}"')
+        copy.on("click", js_handler="(e) => window.antinode.copyNear(e.currentTarget)")
     button = ui.button(icon="open_in_full", color=None)
     button.props(f'flat dense round size=sm aria-label="Enlarge: {title}"').classes("an-enlarge")
     button.on("click", js_handler="(e) => window.antinode.enlarge(e.currentTarget)")

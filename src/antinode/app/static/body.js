@@ -160,6 +160,10 @@ export function body(element) {
       resize();
     },
     resize,
+    png() {
+      renderer.render(scene, camera);
+      return renderer.domElement.toDataURL("image/png");
+    },
     destroy() {
       playing = false;
       controls.dispose();

@@ -5,6 +5,7 @@ import { characteristic, curve, forces, modes } from "./charts.js";
 import { frequencies, strip } from "./frequencies.js";
 import { notes } from "./notes.js";
 import { response } from "./response.js";
+import { pngOf, save, svgOf, textOf } from "./saving.js";
 import { sheet } from "./sheet.js";
 import { vehicle } from "./vehicle.js";
 
@@ -40,17 +41,34 @@ export const registry = {
     const on = !panel.classList.contains("an-large");
     this.shrink();
     panel.classList.toggle("an-large", on);
+    const shown = on && this.near(button);
+    if (!shown) return;
+    const drawn = Boolean(this.views[shown.dataset.name]?.instance || shown.querySelector("svg"));
+    panel.classList.toggle("an-asvg", drawn);
+    panel.classList.toggle("an-apng", drawn || Boolean(this.views[shown.dataset.name]?.png));
   },
   shrink() {
     for (const panel of document.querySelectorAll(".an-large")) panel.classList.remove("an-large");
   },
   // Tables go to the clipboard with tabs, as spreadsheets take them.
   copy(name) {
-    navigator.clipboard?.writeText(this.views[name]?.text?.() ?? "");
+    navigator.clipboard?.writeText(this.views[name] ? textOf(this.views[name]) : "");
+  },
+  near(button) {
+    return [...button.closest(".an-card").querySelectorAll(".an-picture")].find((e) => e.offsetParent || e.clientWidth);
   },
   copyNear(button) {
-    const near = [...button.closest(".an-card").querySelectorAll(".an-picture")].find((e) => e.offsetParent);
+    const near = this.near(button);
     if (near) this.copy(near.dataset.name);
+  },
+  // The picture beside a button as a file.
+  async saveNear(button, kind) {
+    const near = this.near(button);
+    const name = near?.dataset.name;
+    if (!name) return;
+    const view = this.views[name];
+    if (kind === "svg") save(`${name}.svg`, `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgOf(view, near))}`);
+    else save(`${name}.png`, await pngOf(view, near));
   },
   retheme() {
     for (const view of Object.values(this.views)) view.retheme?.();
