@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from .response.quantities import Base, Force, Output
     from .response.shock import srs
     from .response.solve import beam_response, solve_response
+    from .stability.influence import Influence, critical_influence
     from .stability.loci import Loci, root_loci
     from .stability.result import CriticalLoad, Stability
     from .stability.stability import stability
@@ -112,6 +113,8 @@ _HOME = {
     "solve_response": "response.solve",
     "srs": "response.shock",
     "CriticalLoad": "stability.result",
+    "critical_influence": "stability.influence",
+    "Influence": "stability.influence",
     "Loci": "stability.loci",
     "root_loci": "stability.loci",
     "Along": "study.along.result",
@@ -161,6 +164,7 @@ __all__ = [
     "Frequencies",
     "Identification",
     "IdentificationProblem",
+    "Influence",
     "InputError",
     "Joint",
     "Loads",
@@ -187,6 +191,7 @@ __all__ = [
     "case_table",
     "compute_loads",
     "convert",
+    "critical_influence",
     "drawn_beam",
     "frequency_response",
     "identify",

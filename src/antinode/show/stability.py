@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from antinode.beam.beam import Beam
+    from antinode.stability.influence import Influence
     from antinode.stability.result import CriticalLoad, DampedLoss, Stability
     from antinode.study.along.result import Along, StabilityMap
 
@@ -103,6 +104,21 @@ def stability_csv(result: Stability) -> str:
         told = " + ".join(each.modes), each.change, each.certificate.kind
         writer.writerow([each.kind, *(repr(float(v)) for v in numbers), *told])
     return out.getvalue()
+
+
+def show_influence(
+    out: Console, critical: Sequence[CriticalLoad], moved: Sequence[Influence | None]
+) -> None:
+    """Print what moves each critical factor, in percent for each percent."""
+    headings = "% of the factor for each %", "EI", "mass", "springs", "point masses"
+    table = new_table(*headings, left=[0])
+    for each, own in zip(critical, moved, strict=True):
+        if own is not None:
+            shares = np.sum(own.bending_stiffness), np.sum(own.mass_per_length)
+            name = f"{each.kind} at {each.load_factor:.6g}"
+            numbers = (*shares, own.springs, own.point_masses)
+            table.add_row(name, *(f"{v + 0.0:.4f}" for v in numbers))
+    out.print(table)
 
 
 def show_along(out: Console, result: Along) -> None:

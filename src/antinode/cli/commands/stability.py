@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
-from antinode.cli.options import INPUT, OUTPUT, SOLVER, Json, assignments, option, whole
+from antinode.cli.options import INPUT, OUTPUT, SOLVER, Json, assignments, flag, option, whole
 from antinode.errors import InputError
 
 if TYPE_CHECKING:
@@ -38,6 +38,15 @@ Tolerance = Annotated[
         SOLVER,
         "Largest relative error of a factor by what varies inside segments, 1e-12 to 0.1.",
         "--tolerance",
+    ),
+]
+Influence = Annotated[
+    bool,
+    flag(
+        SOLVER,
+        "Tell as well what moves each critical factor: exact derivatives, in percent for each "
+        "percent of stiffness, mass and springs.",
+        "--influence",
     ),
 ]
 ResultFile = Annotated[
@@ -98,6 +107,7 @@ def stability(
     inputs: Inputs = _INPUTS,
     to: Largest = None,
     tolerance: Tolerance = 1e-9,
+    influence: Influence = False,
     json: Json = False,
     output: ResultFile = None,
     plot: PlotFile = None,
@@ -136,13 +146,15 @@ def stability(
         return
     if inputs.points is not None:
         raise InputError("--points is for --along: the steps along the load factor find themselves")
-    _along_factor(_beam_of(file, set_), to, tolerance, json, output, plot)
+    beam = _beam_of(file, set_)
+    _along_factor(beam, to, tolerance, influence, json, output, plot)
 
 
 def _along_factor(
     beam: Beam,
     to: float | None,
     tolerance: float,
+    influence: bool,
     json: bool,
     output: Path | None,
     plot: Path | None,
@@ -151,6 +163,11 @@ def _along_factor(
     from antinode.show.outcome import draw, print_json, say_written
 
     result = beam.stability(to, tolerance=tolerance)
+    moved = None
+    if influence:
+        from antinode.stability.influence import influences
+
+        moved = influences(beam, result.critical)
     if output:
         _write(result, output)
         say_written(output)
@@ -160,14 +177,19 @@ def _along_factor(
 
         draw(plot_loci(root_loci(beam, result)), plot)
     if json:
-        print_json(result.to_dict())
+        data = result.to_dict()
+        for row, each in zip(data["critical"], moved or (), strict=False):
+            row["influence"] = None if each is None else each.to_dict()
+        print_json(data)
         return
     from antinode.show.printing import console, show_beam
-    from antinode.show.stability import show_stability
+    from antinode.show.stability import show_influence, show_stability
 
     out = console()
     show_beam(out, beam)
     show_stability(out, result, beam)
+    if moved is not None:
+        show_influence(out, result.critical, moved)
 
 
 def _beam_of(file: Path, assignments: tuple[str, ...]) -> Beam:

@@ -96,7 +96,7 @@ def solve_damped(
 
 def on_chain(beam: Beam, chain: Chain, modes: int, backend: Backend) -> ComplexRoots:
     """Return the complex eigenvalues of one chain of a beam, without dampers and loss."""
-    damped = Damped(_without_dashpots(chain))
+    damped = Damped(without_dashpots(chain))
     return _roots(damped, at_rest(beam, damped), modes, backend, scales=True)
 
 
@@ -110,7 +110,7 @@ def on_refinement(
     chain = beam.chain(BENDING, refinement)
     lossy = dampers and beam.loss_factor is not None and bool(np.any(beam.loss_factor))
     columns = make_chain(beam, BENDING, refinement, 0.0).columns if lossy else None
-    damped = Damped(chain if dampers else _without_dashpots(chain), columns)
+    damped = Damped(chain if dampers else without_dashpots(chain), columns)
     rest = at_rest(beam, damped)
     scales = beam.is_unloaded or not beam.has_shear or beam.shear_form == "haringx"
     roots = _roots(damped, rest, modes, backend, scales)
@@ -118,7 +118,8 @@ def on_refinement(
     return DampedFamily(damped, roots.eigenvalues, own, rest, [], certificate_dict(roots))
 
 
-def _without_dashpots(chain: Chain) -> Chain:
+def without_dashpots(chain: Chain) -> Chain:
+    """Return a chain without all that acts by velocity."""
     points = tuple(
         replace(p, dashpot=0.0, rotational_dashpot=0.0, feedback_damping=None) for p in chain.points
     )

@@ -63,7 +63,7 @@ def products(damped: Damped, chain: Chain, s: Numbers, right: Numbers, left: Num
     mass: Numbers = forms.mass
     stiffness: Numbers = forms.strain - forms.work - turned
     size: Numbers = chain.law.forms(chain.columns, Squares(*total[1])).mass
-    of_points = [_of_point(chain, point, right, left) for point in damped.base.points]
+    of_points = [point_forms(chain, point, right, left) for point in damped.base.points]
     for inertia, elastic, own_size in of_points:
         mass, stiffness, size = mass + inertia, stiffness + elastic, size + own_size
     acting = damped.acting
@@ -78,7 +78,7 @@ def products(damped: Damped, chain: Chain, s: Numbers, right: Numbers, left: Num
     return Products(mass, stiffness, damping, size.real, Squares(*total[0]))
 
 
-def _of_point(
+def point_forms(
     chain: Chain, point: Point, right: Numbers, left: Numbers
 ) -> tuple[Numbers, Numbers, Numbers]:
     """Return a point's share of mass, stiffness and size."""
