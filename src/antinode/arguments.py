@@ -22,6 +22,12 @@ def choice(name: str, value: object, literal: Any) -> None:
         raise InputError(f"{name} is {short(value)}; allowed are {words}")
 
 
+def wanted(name: str, value: object, kind: type, made: str) -> None:
+    """Raise InputError unless an argument is of a type; `made` says how one is had."""
+    if not isinstance(value, kind):
+        raise InputError(f"{name} is {short(value)}; a {kind.__name__} is wanted, such as {made}")
+
+
 def whole(name: str, value: object, most: int, what: str = "") -> int:
     """Return an argument that counts, 1 ... `most`, as a plain int.
 

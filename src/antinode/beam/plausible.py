@@ -28,6 +28,8 @@ FASTEST, SLOWEST = 14e3, 20.0
 STOUTEST, SLENDEREST = 0.5, 1e-4
 """Radius of gyration sqrt(EI/EA) over the length: half of it; and that of a wire, which hangs."""
 
+WIDEST = 25.0
+"""Width of a section on a drawing [m]: beyond the feet of the widest towers of one tube."""
 MOST_STRAIN = 0.1
 """abs(N)/EA beyond which a beam is hardly one: metals yield below 0.01."""
 _GRAVITY_MM = 9806.65  # mm/s^2
@@ -49,7 +51,12 @@ def doubts(beam: Beam) -> list[str]:
     """
     per_length = beam.mass / beam.length
     own = replace(beam, attachments=()).mass / beam.length if beam.attachments else per_length
-    pulled = [*_weight_from_clamp(beam), *_gravity_in_mm(beam), *_springs_that_push(beam)]
+    pulled = [
+        *_wide_sections(beam),
+        *_weight_from_clamp(beam),
+        *_gravity_in_mm(beam),
+        *_springs_that_push(beam),
+    ]
     EI = 1 / _mean_compliance(beam, "bending_stiffness")
     if beam.axial_stiffness is None:
         alone = _bending_alone(beam, np.sqrt(EI / per_length), np.sqrt(EI / own))
@@ -196,6 +203,18 @@ def _bending_alone(beam: Beam, loaded: float, bare: float) -> Iterator[str]:
             f"sqrt(EI/m) = {bare:.3g} m^2/s is less than a beam of {beam.length:.4g} m can have in "
             f"any material (a steel wire one mm thick: 1.3 m^2/s): {check}; " + _MEANT
         )
+
+
+def _wide_sections(beam: Beam) -> Iterator[str]:
+    """Doubt sections of a drawing that are wider than what is built: mm without a unit."""
+    sizes = beam.drawing.dimensions if beam.drawing is not None else {}
+    for name in ("outer_diameter", "width", "height"):
+        if name in sizes and np.max(sizes[name]) > WIDEST:
+            yield (
+                f"{name} is up to {np.max(sizes[name]):.4g} m: wider than {WIDEST:g} m hardly any "
+                f"beam is; numbers without a unit are metres: write '40 mm', or {name} [mm] in the "
+                f"heading of a table; {_MEANT}"
+            )
 
 
 def _weight_from_clamp(beam: Beam) -> Iterator[str]:

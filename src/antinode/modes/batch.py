@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from antinode.arguments import ByValue, choice, owned, whole
+from antinode.arguments import ByValue, choice, owned, wanted, whole
 from antinode.arrays import Array, Integers
 from antinode.beam.checks import ShearForm
 from antinode.beam.ends import FREE, Ends
@@ -280,6 +280,7 @@ def solve_many(batch: BeamBatch, *, backend: BackendName = "auto") -> BatchResul
     BatchResult
         A beam that fails has NaN and a reason; the others are not touched by it.
     """
+    wanted("the batch", batch, BeamBatch, "BeamBatch([1.0], [1.0], [1.0], [0.0])")
     solver = choose(backend)
     found = _solve(solver, batch)
     omega2, low, high, counts, rounding, reason, evaluations = found

@@ -48,8 +48,9 @@ def not_modelled(beam: Beam, damped: bool = False) -> tuple[str, ...]:
     """Return what the model of a beam leaves out; `damped` where its modes are complex."""
     first = 1 if beam.has_shear else 0
     solved = {"damping"} if damped else set()
+    rigid_in_shear = beam.is_timoshenko and not beam.has_shear
     return beam.left_out + tuple(
-        words
+        words.replace("and rotary inertia (their", "(its") if rigid_in_shear else words
         for words in NOT_MODELLED[first:]
         if (beam.added_mass_per_length is None or not words.startswith("added mass"))
         and words not in solved

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from antinode.arguments import numbers
 from antinode.arrays import Array, Numbers
 from antinode.errors import InputError
 from antinode.riccati.forced import Lanes
@@ -91,6 +92,8 @@ class Damping:
             raise InputError(
                 "damping: loss_factor, modal and rayleigh exclude each other; give one"
             )
+        numbers("damping.loss_factor", self.loss_factor)
+        numbers("damping.modal", list(self.modal))
         if not 0 <= self.loss_factor < 10:
             raise InputError(f"damping.loss_factor is {self.loss_factor:g}; 0 to 10 is allowed")
         for number, ratio in enumerate(self.modal, 1):

@@ -21,7 +21,7 @@ from antinode.inputs.units import Frozen, Length, Number, Unit
 from antinode.modes.backends import BackendName
 
 from .damping import Damping, Rayleigh
-from .quantities import Base, Direction, Drive, Force, Output, QuantityName, Side
+from .quantities import Base, Direction, Drive, Force, Output, QuantityName, Side, family_of
 from .units import in_si
 
 Kind = Literal["harmonic", "random", "transient", "shock"]
@@ -176,7 +176,13 @@ class OutputTable(Frozen):
     def output(self, direction: Direction) -> Output:
         """Return it as the responses want it; `direction` where none is given."""
         along = self.direction or direction
-        return Output(self.x, self.quantity, along, self.side, self.relative)
+        made = Output(self.x, self.quantity, along, self.side, self.relative)
+        if self.direction is not None and made.family != family_of(self.direction).name:
+            raise InputError(
+                f"the output '{made.name}': {self.quantity} is no quantity of the direction "
+                f"'{self.direction}'; leave the direction out, or ask for another quantity"
+            )
+        return made
 
 
 class CoherenceTable(Frozen):

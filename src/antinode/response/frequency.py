@@ -28,7 +28,7 @@ from antinode.modes.solve import HasBeam
 from .damping import UNDAMPED, Damping
 from .forced import Forced, refined, with_stations
 from .modal import modes_below
-from .quantities import Drive, Output, check_places, stations_of
+from .quantities import Base, Drive, Force, Output, check_places, stations_of
 
 ROUNDING = 5e-14
 """Relative change of a frequency that moves a response at least as far as rounding does."""
@@ -225,8 +225,8 @@ def rounding(forced: Forced, omega: Array, H: Numbers) -> Array:
 def frequency_response(
     problem: Beam | HasBeam,
     frequency_hz: npt.ArrayLike,
-    drives: Sequence[Drive],
-    outputs: Sequence[Output],
+    drives: Drive | Sequence[Drive],
+    outputs: Output | Sequence[Output],
     *,
     damping: Damping = UNDAMPED,
     tolerance: float = 1e-6,
@@ -240,9 +240,9 @@ def frequency_response(
         A beam, or anything with a method ``beam()``.
     frequency_hz : array_like, shape (k,)
         Above 0 [Hz].
-    drives : sequence of Force or Base
+    drives : Force, Base or sequence of them
         A unit of each, one after the other.
-    outputs : sequence of Output
+    outputs : Output or sequence of Output
     damping : Damping
         Not by ratios of modes: `modal_response` takes those.
     tolerance : float
@@ -259,6 +259,8 @@ def frequency_response(
     InputError
         If a station is off the beam, the beam lacks a column, or an argument is out of range.
     """
+    drives = (drives,) if isinstance(drives, Force | Base) else drives
+    outputs = (outputs,) if isinstance(outputs, Output) else outputs
     frequency = checked_frequencies(frequency_hz)
     tolerance = within("tolerance", tolerance, 1e-12, 0.1, " (relative)")
     if damping.modal:

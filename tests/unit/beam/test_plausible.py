@@ -11,6 +11,8 @@ from antinode import Beam, Ends, solve_modes
 from antinode.beam.attachments import PointMass, Spring
 from antinode.beam.axial import AxialLoads, PointForce, apply_loads
 from antinode.beam.plausible import doubts
+from antinode.beam.sections import Material, drawn_beam
+from antinode.modes.result import not_modelled
 from cli_run import run
 
 CLAMPED = Ends("clamped", "free")
@@ -202,3 +204,17 @@ def test_gravity_in_millimetres_is_doubted(gravity, told):
     for sign in (1.0, -1.0):
         loaded = apply_loads(bar(**PILE), AxialLoads(gravity=sign * gravity))
         assert any("mm/s^2" in text for text in doubts(loaded)) == told
+
+
+def test_a_drawing_in_millimetres_without_a_unit_is_doubted():
+    steel = Material(youngs_modulus="210 GPa", density=7850)
+    for size, length, told in ((40.0, 1200.0, True), (0.04, 1.2, False), (10.0, 150.0, False)):
+        for columns in ({"outer_diameter": size}, {"width": size, "height": size / 2}):
+            found = doubts(drawn_beam([0, length], steel, **columns))
+            assert any("[mm] in the heading" in text for text in found) == told
+
+
+def test_rotary_inertia_alone_leaves_shear_out():
+    rows = {"rotary_inertia_per_length": [1e-3, 1e-3]}
+    beam = Beam.from_stations([0, 1.2], 10.0, 2e4, 2.6e8, ends=CLAMPED, **rows)
+    assert not_modelled(beam)[0].startswith("shear deformation (its effect is estimated")

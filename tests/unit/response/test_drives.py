@@ -106,3 +106,12 @@ def test_spectra_have_the_unit_that_people_write(tmp_path):
     refused(ended, "'N/Hz' is no unit of N^2/Hz; write e.g. '1 N^2/Hz'")
     told = asked(tmp_path, RANDOM.replace("LEVEL", "3 N^2/Hz"), "clamped", "", "--json")
     assert json.loads(told.out)["outputs"][0]["psd_unit"] == "m^2/Hz"
+
+
+def test_a_direction_that_a_quantity_has_not_is_refused(tmp_path):
+    text = BASE.replace("DAMPING", "")
+    for quantity, direction in (("slope", "axial"), ("axial_force", "lateral")):
+        output = f'{quantity}"\ndirection = "{direction}"'
+        wrong = text.replace('acceleration"', output)
+        refused(asked(tmp_path, wrong), f"{quantity} is no quantity of the direction '{direction}'")
+    assert asked(tmp_path, text.replace('acceleration"', 'slope"\ndirection = "lateral"')).code == 0

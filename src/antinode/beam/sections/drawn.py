@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from antinode.arguments import choice
+from antinode.arguments import choice, wanted
 from antinode.arrays import Array, Interpolation
 from antinode.beam import curves
 from antinode.beam.beam import Beam
@@ -73,6 +73,7 @@ def drawn_beam(
     >>> round(rod.mass, 4)
     4.9323
     """
+    wanted("the material", material, Material, "Material(youngs_modulus='210 GPa', density=7850)")
     stations = np.atleast_1d(as_column("x", x))
     drawing, others = _read(stations, columns, material, interpolation)
     own = drawing.columns

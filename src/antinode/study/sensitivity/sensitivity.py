@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from antinode.arguments import wanted
 from antinode.arrays import Array
 from antinode.beam.families import FamilyName
 from antinode.beam.file import BeamFile
@@ -243,6 +244,7 @@ def sensitivity(
     ComputationError
         If less than half of the samples can be solved.
     """
+    wanted("the study", study, Study, "load_study('study.toml')")
     number = samples or study.design.number or 1024
     if number < 8:
         raise InputError(f"{number} samples are too few; take 1024")

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from antinode.arguments import wanted
 from antinode.errors import InputError
 from antinode.study.cases.chunks import Arrays
 from antinode.study.cases.reasons import failed
@@ -88,6 +89,7 @@ def sweep(
         If the disk is full, or the workers fail.
     """
     refuse_second_script()
+    wanted("the study", study, Study, "load_study('study.toml')")
     points = points_of(study)
     check_size(points, in_memory=store is None)
     import_store()
