@@ -163,3 +163,25 @@ def test_a_panel_is_saved_as_a_picture(chromium, address, title):
     assert numbers == 3
     assert tab.errors == []
     tab.page.close()
+
+
+def test_a_snapshot_lies_beside_shapes_and_response(chromium, address):
+    tab = Tab(chromium, address + '?panel="compare"')
+    tab.page.get_by_role("button", name="Keep").click()
+    before = tab.frequency(1)
+    tab.page.get_by_role("button", name="Euler-Bernoulli").click()
+    tab.wait_for_change(before)
+    tab.page.get_by_label("What this panel shows").click()
+    tab.page.get_by_role("option", name="Response").click()
+    series = "window.antinode.views.{}.instance.getOption()?.series"
+    tab.page.wait_for_function(
+        f"{series.format('response')}?.find((s) => s.id === 'kept')?.data.length > 100"
+    )
+    shapes = tab.page.evaluate(series.format("modes") + ".map((s) => [s.id, s.data])")
+    now, kept = (np.array(dict(shapes)[f"{what} 3"]) for what in ("mode", "kept"))
+    exact = [quick_answer(own).quick for own in (State(read_example("starter")),)]
+    shown = np.interp(exact[0].x, kept[:, 0], kept[:, 1])
+    np.testing.assert_allclose(shown, exact[0].states[:, 2, 0], atol=2e-3)
+    assert np.max(np.abs(np.interp(now[:, 0], kept[:, 0], kept[:, 1]) - now[:, 1])) > 0.005
+    assert tab.errors == []
+    tab.page.close()

@@ -244,7 +244,7 @@ class Session:
             now = snapshot("now", state, answer)
             return compare_data(self._snapshots, now, state.view.family)
         if panel == "response":
-            return response_data(state, answer, full=True)
+            return response_data(state, answer, full=True, beside=self._beside(state))
         return kept((panel, state.key), lambda: PANELS[panel](answer))
 
     async def _show(self, state: State, compute: Callable[[State], Answer]) -> bool:
@@ -279,7 +279,7 @@ class Session:
         inputs = sliders(state.problem, state.original, view.sliders)
         data = {
             "forces": forces_data(answer, view.units),
-            "modes": modes_data(answer, view),
+            "modes": modes_data(answer, view, self._answer_beside(state)),
             "frequencies": frequencies_data(answer, view),
             "characteristic": characteristic_data(answer),
             "notes": notes_data(answer, view.units),
@@ -296,10 +296,20 @@ class Session:
             data["curve"] = self._curve_patch(state, item, answer)
         return answer, data, inputs
 
-    @staticmethod
-    def _response_now(state: State, answer: Answer) -> dict[str, Any]:
+    def _beside(self, state: State) -> State | None:
+        """Return the last snapshot, if it is of the same kind and another state."""
+        last = self._snapshots[-1].state if self._snapshots else None
+        if last is None or last.key == state.key or last.is_vehicle != state.is_vehicle:
+            return None
+        return last
+
+    def _answer_beside(self, state: State) -> Answer | None:
+        last = self._beside(state)
+        return None if last is None else quick_answer(last)
+
+    def _response_now(self, state: State, answer: Answer) -> dict[str, Any]:
         try:
-            return response_data(state, answer, full=False)
+            return response_data(state, answer, full=False, beside=self._beside(state))
         except AntinodeError as error:
             return said(str(error))
 

@@ -16,8 +16,8 @@ from antinode.modes.hertz import hertz
 from .numbers import pairs, thinned
 
 
-def modes_data(answer: Answer, view: View) -> dict[str, Any]:
-    """Return the curves of the modes that the view asks for."""
+def modes_data(answer: Answer, view: View, beside: Answer | None = None) -> dict[str, Any]:
+    """Return the curves of the modes that the view asks for, beside those of a snapshot."""
     family = view.family if answer.full else QUICK_FAMILY
     x, shapes, labels = _shapes(answer, view, family)
     factor = shown_unit("m", view.units).factor
@@ -28,16 +28,33 @@ def modes_data(answer: Answer, view: View) -> dict[str, Any]:
         "origin": "nose" if answer.case else "left end",
         "component": names[component][0],
         "meaning": names[component][2],
-        "curves": [
-            {
-                "number": number,
-                "label": label,
-                "points": pairs(*thinned(x / factor, _largest_one(shape[:, component]))),
-            }
-            for number, label, shape in zip(view.modes, labels, shapes, strict=False)
-            if shape is not None
-        ],
+        "curves": _curves(view, x / factor, component, shapes, labels),
+        "kept": [] if beside is None else _kept(beside, view, family, factor, component),
     }
+
+
+def _curves(
+    view: View, x: np.ndarray, component: int, shapes: list[np.ndarray | None], labels: list[str]
+) -> list[dict[str, Any]]:
+    return [
+        {
+            "number": number,
+            "label": label,
+            "points": pairs(*thinned(x, _largest_one(shape[:, component]))),
+        }
+        for number, label, shape in zip(view.modes, labels, shapes, strict=False)
+        if shape is not None
+    ]
+
+
+def _kept(
+    beside: Answer, view: View, family: FamilyName, factor: float, component: int
+) -> list[dict[str, Any]]:
+    """Return the shapes of a snapshot, if they are known."""
+    if family != QUICK_FAMILY and beside.full is None:
+        return []
+    x, shapes, labels = _shapes(beside, view, family)
+    return _curves(view, x / factor, component, shapes, labels)
 
 
 def _shapes(

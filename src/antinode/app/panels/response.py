@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -23,8 +24,12 @@ _NEAR = 0.1
 """Relative distance of a peak from the mode that it is named by."""
 
 
-def response_data(state: State, answer: Answer, full: bool) -> dict[str, Any]:
+def response_data(
+    state: State, answer: Answer, full: bool, beside: State | None = None
+) -> dict[str, Any]:
     """Return the curve of a state's response: at once, or in full if asked, or if it is there.
+
+    That of a snapshot beside it is under the same force, at once.
 
     Raises
     ------
@@ -39,7 +44,11 @@ def response_data(state: State, answer: Answer, full: bool) -> dict[str, Any]:
     solve = full_curve if full else quick_curve
     curve = kept((*known, full), lambda: solve(answer.beam, asked, answer.quick))
     own = answer.quick.omega2 if asked.output.family == QUICK_FAMILY else np.empty(0)
-    return _drawn(curve, asked, view.units, full, hertz(np.maximum(own, 0.0)))
+    data = _drawn(curve, asked, view.units, full, hertz(np.maximum(own, 0.0)))
+    if beside is not None:
+        other = replace(beside, view=view)
+        data["kept"] = response_data(other, quick_answer(other), full=False)["points"]
+    return data
 
 
 def _drawn(curve: Curve, asked: Wanted, system: System, full: bool, modes: Array) -> dict[str, Any]:

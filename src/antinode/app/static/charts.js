@@ -155,9 +155,20 @@ export function modes(element) {
       itemStyle: { color: seriesColour(t, c.number) },
       data: wave(c.points, k),
     }));
+  const kept = (data, t) =>
+    data.kept.map((c) => ({
+      id: `kept ${c.number}`,
+      name: `${c.number}, snapshot`,
+      type: "line",
+      symbol: "none",
+      lineStyle: { width: 1.2, color: seriesColour(t, c.number), type: "dotted", opacity: 0.8 },
+      itemStyle: { color: seriesColour(t, c.number) },
+      data: c.points,
+    }));
   const full = (data, t) => ({
     grid: { left: 42, right: 12, top: 26, bottom: 36 },
     legend: {
+      data: data.curves.map((c) => `${c.number}`),
       top: 0,
       left: 34,
       icon: "roundRect",
@@ -178,11 +189,11 @@ export function modes(element) {
         .concat(points.map((p) => `${p.marker} mode ${p.seriesName}: <b>${rounded(p.value[1])}</b>`))
         .join("<br>"),
     ),
-    series: lines(data, t),
+    series: [...lines(data, t), ...kept(data, t)],
   });
   const it = chart(element, full, (data, t) => ({
     legend: full(data, t).legend,
-    series: lines(data, t).map((s) => ({ id: s.id, data: s.data })),
+    series: [...lines(data, t), ...kept(data, t)].map((s) => ({ id: s.id, data: s.data })),
   }));
   const step = () => {
     if (!playing) return;
@@ -193,7 +204,7 @@ export function modes(element) {
   return {
     ...it,
     show(data) {
-      const key = [data.unit, data.component, data.curves.map((c) => c.number)];
+      const key = [data.unit, data.component, data.curves.map((c) => c.number), data.kept.map((c) => c.number)];
       it.show({ ...data, signature: JSON.stringify(key) });
     },
     play(on) {

@@ -18,6 +18,7 @@ export function response(element) {
       tooltip: { show: false },
       data: data.peaks.map((p) => [p.hz, p.size]),
     },
+    { id: "kept", name: "snapshot", type: "line", symbol: "none", lineStyle: { color: t.muted, width: 1.2, type: "dotted" }, tooltip: { show: false }, data: data.kept ?? [] },
   ];
   const full = (data, t) => ({
     title: { text: `${data.title} [${data.unit}]`, left: 46, top: 2, padding: 0, textStyle: { color: t.muted, fontSize: 11, lineHeight: 14, fontWeight: 400, fontFamily: FONT, width: Math.max(80, plot.clientWidth - 52), overflow: "truncate" } },

@@ -60,7 +60,7 @@ export async function pngOf(view, element) {
 // Numbers with tabs, as spreadsheets take them: what the picture tells, or the points of its lines.
 export function textOf(view) {
   if (view.text) return view.text();
-  const series = view.instance?.getOption().series ?? [];
+  const series = view.instance?.getOption()?.series ?? [];
   const rows = series.flatMap((s) => (s.data ?? []).map((point) => [s.name ?? s.id ?? "", ...[point].flat()].join("\t")));
   return rows.join("\n");
 }
