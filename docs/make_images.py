@@ -16,6 +16,7 @@ from PIL import Image
 
 from antinode import (
     Beam,
+    Dashpot,
     Ends,
     load_beam,
     load_case,
@@ -30,7 +31,7 @@ from antinode import (
 from antinode.show.end_forces import plot_end_forces
 from antinode.show.figures import PALETTE, plot_case, plot_loads, plot_modes, save
 from antinode.show.response_figures import plot_response
-from antinode.show.stability import plot_loci
+from antinode.show.stability_figures import plot_loci
 from antinode.show.style import BODY, GREY, INK, WIDTH, styled
 from antinode.study.sensitivity.command import read_uncertain
 from antinode.study.sensitivity.command import tornado as plot_tornado
@@ -83,6 +84,29 @@ def stability_loci() -> None:
         path.write_text(stations, encoding="utf-8")
         beam = load_beam(path).beam()
     save(plot_loci(root_loci(beam, stability(beam))), IMAGES / "howto_stability.png")
+
+
+def ziegler() -> None:
+    """Draw the flutter load of Beck's column over a dashpot at its tip."""
+    ends = Ends("clamped", right_follower=1.0)
+    beck = Beam.from_stations([0, 1], [1, 1], [1, 1], axial_force=[1, 1], ends=ends)
+    dashpots = np.geomspace(1e-3, 3.0, 15)
+    with styled() as plt:
+        figure, axes = plt.subplots(figsize=(WIDTH, 0.5 * WIDTH), layout="constrained")
+        for k, kind in enumerate(("translational", "rotational")):
+            damped = [
+                stability(beck.with_attachments(Dashpot(1.0, **{kind: c}))).damped for c in dashpots
+            ]
+            loads = [np.nan if found is None else found.load_factor for found in damped]
+            label = "against its motion" if kind == "translational" else "against its turn"
+            axes.semilogx(dashpots, loads, "o-", markersize=3, color=PALETTE[k], label=label)
+        flutter = stability(beck).flutter
+        assert flutter is not None
+        axes.axhline(flutter.load_factor, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
+        axes.annotate("no damping", (1e-3, flutter.load_factor), (0, 3), textcoords="offset points")
+        axes.set(xlabel="dashpot at the tip", ylabel="force at which a mode grows", ylim=(0, 25))
+        axes.legend(loc="lower right")
+        save(figure, IMAGES / "howto_ziegler.png")
 
 
 def equipment() -> None:
@@ -273,6 +297,7 @@ MAKERS = (
     howto,
     end_forces,
     stability_loci,
+    ziegler,
     equipment,
     sweeps,
     tornado,

@@ -18,8 +18,9 @@ from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import InputError
 from antinode.modes.backends import Backend, BackendName, choose, for_one
-from antinode.modes.loading import greatest_in_shear
+from antinode.modes.loading import greatest_in_shear, loading
 from antinode.modes.solve import HasBeam
+from antinode.riccati.chain import split_long
 
 from .counting import divergences
 from .damped import damped_loss
@@ -36,6 +37,7 @@ _MOST_ELASTIC = 48
 EVALUATIONS = 60
 """Of its chains, in which `modes.backends.for_one` weighs a beam."""
 _REFINEMENT = 2
+_MANY_PIECES = 10_000
 
 
 @out_of_range_is_an_error()
@@ -83,12 +85,22 @@ def stability(
             f"{beam.name}: there is no axial force, so a factor on it changes nothing; give "
             "axial_force, an axial acceleration or forces along the beam"
         )
-    segments = len(beam.chain(BENDING).length)
-    solver = choose(backend or for_one(segments, EVALUATIONS))
+    solver = choose(backend or for_one(_pieces(beam), EVALUATIONS))
     along = _followed if any(beam.following()) or beam.loads_turn else _counted
     found = along(beam, most, tolerance, solver)
     damped = damped_loss(beam, found) if dampers else None
     return found if damped is None else replace(found, damped=damped)
+
+
+def _pieces(beam: Beam) -> int:
+    """Return how many pieces chains are cut into: many where the stiffness in shear is used up."""
+    factor = greatest_in_shear(beam)
+    if not np.isfinite(factor):
+        return len(beam.chain(BENDING).length)
+    try:
+        return len(split_long(loading(beam, 1, translates=False)(factor), 0.0).length)
+    except FloatingPointError:
+        return _MANY_PIECES
 
 
 def _counted(beam: Beam, most: float | None, tolerance: float, solver: Backend) -> Stability:
