@@ -135,8 +135,11 @@ class Mode(ModeMethods, ByValue):
 
     @property
     def by_shear(self) -> float | None:
-        """What shear and rotary inertia do to the frequency: solved, or else estimated."""
-        return self.model_error if self.effect_of_shear is None else self.effect_of_shear
+        """What shear and rotary inertia do to the frequency: solved, estimated, or one of each."""
+        solved, estimated = self.effect_of_shear, self.model_error
+        if solved is None or estimated is None:
+            return estimated if solved is None else solved
+        return (1 + solved) * (1 + estimated) - 1  # rotary inertia alone is solved
 
     @property
     def eigenvalue_per_s(self) -> complex:

@@ -218,3 +218,9 @@ def test_rotary_inertia_alone_leaves_shear_out():
     rows = {"rotary_inertia_per_length": [1e-3, 1e-3]}
     beam = Beam.from_stations([0, 1.2], 10.0, 2e4, 2.6e8, ends=CLAMPED, **rows)
     assert not_modelled(beam)[0].startswith("shear deformation (its effect is estimated")
+    both = replace(beam, theory="euler_bernoulli")
+    for own, other in zip(
+        *(solve_modes(b, 3).family("bending") for b in (beam, both)), strict=True
+    ):
+        assert own.effect_of_shear > 0.4 * own.model_error
+        assert own.by_shear == pytest.approx(other.by_shear, rel=0.02)
