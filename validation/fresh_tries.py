@@ -3,8 +3,9 @@
     python validation/fresh_tries.py [--write]
 
 `fresh_tries.txt` has one a line: what must happen (refused, or accepted: somebody looked), what is
-tried on, and the try itself as JSON texts. A beam file, a table, a study is spoilt in one place; a
-command line is given; a line of Python is run. A refusal is one sentence without a traceback.
+tried on, and the try itself as JSON texts. A beam file, a table, a study, a response, a column that
+may flutter, a drawing is spoilt in one place; inputs are added to a study of a beam file; a command
+line is given; a line of Python is run. A refusal is one sentence without a traceback.
 With --write the verdicts are written anew, to be looked at.
 """
 
@@ -48,6 +49,39 @@ modes = 2
 """
 TABLE = "x [m],mass_per_length [kg/m],bending_stiffness [N m^2]\n0,10,4e4\n2,8,3e4\n4,8,3e4\n"
 STUDY = 'case = "case.toml"\nsolve.modes = 2\n'
+MAST = 'case = "b.toml"\nsolve.modes = 2\n'
+COLUMN = """[beam]
+stations = { x = [0, 1], mass_per_length = [1, 1], bending_stiffness = [1, 1], \
+axial_force = [1, 1] }
+[beam.ends]
+left = "clamped"
+right_follower = 0.8
+"""
+DRAWING = """[beam]
+interpolation = "linear"
+stations = { x = [0, 2], outer_diameter = ["40 mm", "60 mm"], wall = ["3 mm", "3 mm"] }
+[beam.material]
+youngs_modulus = "210 GPa"
+density = "7850 kg/m^3"
+[beam.ends]
+left = "clamped"
+"""
+RESPONSE = """[response]
+of = "b.toml"
+kind = "harmonic"
+[damping]
+loss_factor = 0.02
+[frequency]
+from = "1 Hz"
+to = "50 Hz"
+points = 10
+[[forces]]
+x = 4
+amplitude = "1 N"
+[[outputs]]
+x = 4
+quantity = "displacement"
+"""
 NOISE = "Traceback", "pydantic", "bug in antinode", "Value error"
 
 
@@ -75,6 +109,13 @@ def studied(text: str, line: str) -> tuple[int, str]:
     return command(name, "s.toml", *more)
 
 
+def changed(name: str, text: str, old: str, new: str, *more: str) -> tuple[int, str]:
+    """Run a command on a file that is spoilt in one place."""
+    assert old in text, old
+    Path("f.toml").write_text(text.replace(old, new, 1), encoding="utf-8")
+    return command(name, "f.toml", *more)
+
+
 def python(line: str) -> tuple[int, str]:
     beam = an.Beam.from_stations([0, 1], 1.0, 1.0)
     known = {**vars(an), "an": an, "b": beam, "B": an.Beam.from_stations, "E": an.Ends}
@@ -97,6 +138,14 @@ def verdict(kind: str, cells: list[str]) -> str:
         code, said = spoilt("t.csv", TABLE, *cells)
     elif kind == "study":
         code, said = studied(*cells)
+    elif kind == "response":
+        code, said = changed("response", RESPONSE, *cells)
+    elif kind == "stability":
+        code, said = changed("stability", COLUMN, *cells)
+    elif kind == "drawing":
+        code, said = changed("beam", DRAWING, *cells)
+    elif kind == "beam study":
+        code, said = changed("sweep", MAST + cells[0], "solve.modes = 2", "solve.modes = 2")
     elif kind == "python":
         code, said = python(*cells)
     else:
