@@ -91,7 +91,7 @@ class TestCsv:
             (b"\0" * 1000, ["header"]),
             (b"x" * 200_000, ["line 1", "no CSV table"]),
             ("x\n" + "1\n" * (MOST_ROWS + 1), [f"more than {MOST_ROWS} rows"]),
-            (b"1," * 5_000_000, ["header"]),
+            (b"1," * 500_000, ["header"]),
             (b"ab,cd\n" * 1_700_000, ["rows"]),
             (b"#" * 20_000_001, ["20.0 MB", "20 MB allowed"]),
         ],
