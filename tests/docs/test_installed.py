@@ -29,11 +29,14 @@ def test_it_runs_where_there_is_no_clone(installed, cold, tmp_path):
     python = installed.python
     home_of = run(python, "-c", "import antinode; print(antinode.__file__)", where=tmp_path)
     assert Path(home_of.strip()).is_relative_to(installed.site)
-    assert [path.suffix for path in sorted(cold.cache.glob("kernel*"))] == [".bin", ".lock"]
+    made = {path.name for path in cold.cache.glob("kernel*.bin")}
+    assert made
+    assert {path.name for path in cold.cache.glob("kernel*.lock")} == {f"{n}.lock" for n in made}
     run(python, "-m", "antinode", "init", "demo", where=tmp_path)
     said = run(python, "-m", "antinode", "modes", "demo/case.toml", "--plot", "m.png",
                where=tmp_path)  # fmt: skip
     assert "bending 1" in said
     assert (tmp_path / "m.png").stat().st_size > 10_000
     assert "all checks passed" in run(python, "-m", "antinode", "verify", where=tmp_path)
-    assert len(list(cold.cache.glob("kernel*.bin"))) == 1
+    assert made <= {path.name for path in cold.cache.glob("kernel*.bin")}
+    assert len(list(cold.cache.glob("kernel*.bin"))) <= 3  # parts, each made once

@@ -75,9 +75,10 @@ def _cells(each: CriticalLoad) -> tuple[str, ...]:
 def _with_dampers(damped: DampedLoss) -> str:
     at = f" at {damped.frequency_hz:.7g} Hz" if damped.frequency_hz else ""
     proven = "" if damped.proven else ", not proven"
+    error = max(abs(end - damped.load_factor) for end in damped.bracket)
     return (
         f"With its dashpots and loss factors: {damped.mode}, {damped.kind}{at} from "
-        f"{damped.load_factor:.8g}{proven}."
+        f"{damped.load_factor:.8g} +- {error:.1g}{proven}."
     )
 
 

@@ -48,7 +48,7 @@ def test_a_damaged_file_is_made_anew(made, tmp_path, spoil):
 def test_every_part_has_a_file_of_its_own(made, tmp_path):
     library._code("roots")
     library._code("shapes")
-    names = [path.name.split("-")[0] for path in sorted(tmp_path.glob("*.bin"))]
+    names = [path.name.split("-")[1] for path in sorted(tmp_path.glob("*.bin"))]
     assert names == ["roots", "shapes"]
     assert len(made) == 2
 

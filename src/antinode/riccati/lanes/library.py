@@ -143,7 +143,7 @@ def _c_libraries() -> list[Any]:
 
 def _code(part: Part) -> bytes:
     """Return the machine code of a part: from a folder that has it, or newly made."""
-    name = f"{part}-{_key()}.bin"
+    name = f"kernel-{part}-{_key()}.bin"
     for folder in _folders():
         code = _read(folder / name)
         if code:

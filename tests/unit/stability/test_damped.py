@@ -1,0 +1,35 @@
+"""Stability with dampers: no mode grows at one end of the bracket, and one does at the other."""
+
+import numpy as np
+import pytest
+
+import antinode as an
+from antinode.modes.loading import under
+
+TAPERED = an.Beam(
+    x=[0, 3, 6],
+    mass_per_length=[10, 9, 8],
+    bending_stiffness=[1e5, 9e4, 8e4],
+    axial_force=[-1e3, 2e3, 5e3],
+    interpolation="linear",
+    ends=an.Ends("clamped", "free", right_follower=1.0),
+)
+
+
+@pytest.mark.parametrize("coefficient", [30.0, 3e3])
+def test_growth_changes_its_sign_inside_the_bracket(coefficient):
+    beam = TAPERED.with_attachments(an.Dashpot(5.0, translational=coefficient))
+    found = an.stability(beam).damped
+    assert found.proven
+    low, high = found.bracket
+    assert low < found.load_factor < high
+    assert high - low < 1e-5 * high
+    growth = [
+        max(
+            mode.growth_rate_per_s
+            for mode in an.solve_modes(under(beam, factor), 4, tolerance=1e-11).modes
+        )
+        for factor in (low, high)
+    ]
+    assert growth[0] < 0 < growth[1]
+    assert np.sign(found.frequency_hz) == 1
