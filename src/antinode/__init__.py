@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from .modes.solve import solve_modes
     from .modes.verify import run_checks as verify
     from .paper.comparison import compare as reproduce
+    from .proof.prove import Proof, prove
     from .report.command import report_file as write_report
     from .response.damping import Damping
     from .response.file import load_response
@@ -102,6 +103,8 @@ _HOME = {
     "compute_loads": "vehicle.loads",
     "Model": "vehicle.options",
     "solve_modes": "modes.solve",
+    "prove": "proof.prove",
+    "Proof": "proof.prove",
     "ModalResult": "modes.result",
     "Mode": "modes.result",
     "Base": "response.quantities",
@@ -177,6 +180,7 @@ __all__ = [
     "Output",
     "PointFeedback",
     "PointMass",
+    "Proof",
     "Section",
     "Spring",
     "Stability",
@@ -202,6 +206,7 @@ __all__ = [
     "load_study",
     "natural_frequencies",
     "open_store",
+    "prove",
     "reproduce",
     "root_loci",
     "run_app",

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .modes.result import Damping as Whether
     from .modes.result import Method as Kinds
     from .modes.result import ModalResult, Normalisation
+    from .proof.prove import Proof
     from .response import solve as responses
     from .response.damping import Damping
     from .response.frequency import FrequencyResponse
@@ -160,12 +161,16 @@ class ModesMethods:
         to_dataframe = frames.modes_frame
         save = saving.save_modes
         buckling = _buckling.buckling_of
+
+        def prove(self) -> Proof: ...  # noqa: D102
+
         _repr_html_ = cards.modes_card
     else:
         plot = Method("show.objects.plots", "modes_axes")
         to_dataframe = Method("show.objects.frames", "modes_frame")
         save = Method("exchange.saving", "save_modes")
         buckling = Method("modes.buckling", "buckling_of")
+        prove = Method("proof.prove", "prove")
         _repr_html_ = Method("show.objects.cards", "modes_card")
         __repr__ = Method("show.objects.lines", "modes_line")
 

@@ -69,6 +69,16 @@ BucklingFactor = Annotated[
     ),
 ]
 
+Prove = Annotated[
+    bool,
+    flag(
+        SOLVER,
+        "Also prove in ball arithmetic that no mode is missing in a region, and none further off "
+        "than its error; needs the extra 'prove'. Exit code 3 if it is not proven.",
+        "--prove",
+    ),
+]
+
 
 @Parameter(name="*")
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -188,6 +188,19 @@ class Lateral(Law):
         back = following_transfer(-h, EI, beta, mu, t, s, 1 + turn)
         J = self.symplectic
         return np.asarray(-J @ np.swapaxes(back, -1, -2) @ J)
+
+    def rates(self, column: Mapping[str, Any], omega2: Any) -> list[list[Any]]:
+        """Return the law as it stands at the head of this module."""
+        s, turn, work, rotary, foundation = (column.get(name, 0) for name in self.more)
+        alpha = 1 + turn
+        beta = column["axial_force"] + work + rotary * omega2
+        along, across = (column.get(name, 0) for name in ("tangential", "tangential_adjoint"))
+        return [
+            [0, alpha, 0, -s],
+            [0, 0, 1 / column["stiffness"], 0],
+            [-across, -beta, 0, alpha],
+            [column["mass"] * omega2 - foundation, along, 0, 0],
+        ]
 
     def state_units(self, units: Units) -> Array:
         """Return those of ``[Y/l, psi, M l/EI0, Q l^2/EI0]``."""

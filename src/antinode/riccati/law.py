@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -189,6 +189,10 @@ class Law(ABC):
     @abstractmethod
     def transfer(self, length: Array, columns: Columns, omega2: Array, units: Units) -> Array:
         """Return scaled transfer matrices; length and columns (n, 1), omega2 (k,): (n, k, s, s)."""
+
+    @abstractmethod
+    def rates(self, column: Mapping[str, Any], omega2: Any) -> list[list[Any]]:
+        """Return A of ``z' = A z`` in SI, row by row, from numbers of any kind; of first degree."""
 
     @abstractmethod
     def state_units(self, units: Units) -> Array:

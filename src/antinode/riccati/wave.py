@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -65,6 +65,11 @@ class Wave(Law):
         scale, stiffness = units
         inertia = columns["mass"] * (omega2 * scale**2 / stiffness)
         return wave_transfer(length / scale, columns["stiffness"] / stiffness, inertia, self.sign)
+
+    def rates(self, column: Mapping[str, Any], omega2: Any) -> list[list[Any]]:
+        """Return equation 48."""
+        sign = int(self.sign)
+        return [[0, sign / column["stiffness"]], [-sign * omega2 * column["mass"], 0]]
 
     def state_units(self, units: Units) -> Array:
         """Return those of ``[u/l, F/K0]``."""

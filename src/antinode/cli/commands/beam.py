@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import sys
+from dataclasses import replace
 from pathlib import Path
 
 from antinode.cli.modal import check_modal_output, draw_effects, solve, write_modes
-from antinode.cli.options import BeamSet, BucklingFactor, Effects, Output, Solver
+from antinode.cli.options import BeamSet, BucklingFactor, Effects, Output, Prove, Solver
+from antinode.extras import import_extra
 from antinode.show.outcome import draw
 
 _SOLVER, _OUTPUT = Solver(), Output()
@@ -18,6 +21,7 @@ def beam(
     set_: BeamSet = (),
     solver: Solver = _SOLVER,
     buckling: BucklingFactor = False,
+    prove: Prove = False,
     effects: Effects = None,
     output: Output = _OUTPUT,
 ) -> None:
@@ -30,6 +34,7 @@ def beam(
     - Example: **antinode beam beam.toml --set beam.ends.left=pinned --plot beam.svg**
     - Example: **antinode beam beam.toml --buckling -o beam.csv**
     - Example: **antinode beam beam.toml --effects effects.png**
+    - Example: **antinode beam beam.toml --prove --json**
 
     Parameters
     ----------
@@ -37,6 +42,8 @@ def beam(
         A beam file in TOML. 'antinode init --beam' writes one.
     """
     check_modal_output(output, effects)
+    if prove:
+        import_extra("flint", "prove")
     from antinode.beam.file import load_beam
 
     result = solve(load_beam(file, set_), solver)
@@ -45,6 +52,9 @@ def beam(
         from antinode.modes.buckling import buckling_of
 
         critical = buckling_of(result)
+    proof = result.prove() if prove else None
+    if proof:
+        result = replace(result, certificate={**result.certificate, **proof.to_dict()})
     found = {"buckling": critical.to_dict() if critical else None} if buckling else {}
     if output.plot:
         from antinode.show.figures import plot_modes
@@ -60,3 +70,7 @@ def beam(
         if buckling:
             show_buckling(out, critical)
         show_modes(out, result)
+        if proof:
+            out.print(proof.sentence[0].upper() + proof.sentence[1:] + ".", soft_wrap=True)
+    if proof and not proof.proven:
+        sys.exit(3)

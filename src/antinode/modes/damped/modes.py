@@ -57,7 +57,7 @@ def damped_modes(
     """Solve a family: rigid modes at rest, then all others by abs(Im s), then Re s."""
     solved = solve_damped(beam, family, modes, tolerance, backend, lossy=lossy)
     names = names_in(beam, solved)
-    keep = _kept(solved, modes)
+    keep = shown(solved, modes)
     shapes = _Shapes(beam, solved, keep, grid, normalisation)
     found = [
         _mode(solved, family, k, names[k], shapes, row)
@@ -74,7 +74,7 @@ def damped_modes(
     )
 
 
-def _kept(solved: DampedFamily, modes: int) -> list[int]:
+def shown(solved: DampedFamily, modes: int) -> list[int]:
     """Return which eigenvalues are shown: real ones, and so many that oscillate."""
     kept, oscillating = [], 0
     for k, value in enumerate(solved.eigenvalues):

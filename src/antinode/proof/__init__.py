@@ -1,0 +1,1 @@
+"""Lists of eigenvalues proven in ball arithmetic: complex numbers that carry their own error."""
