@@ -109,6 +109,10 @@ PROVEN = {
         replace(uniform(BECK, 18.0), loss_factor=np.full((2, 2), 0.02)),
         {"damping": "complex"},
     ),
+    "loss, free and compressed": (
+        replace(uniform(an.Ends(), 5.0), loss_factor=np.full((2, 2), 0.1)),
+        {"damping": "complex"},
+    ),
     "sliding to pinned, held inside": (
         uniform(an.Ends("sliding", "pinned"), 2.0, 3).with_attachments(
             an.Spring(1 / 3, translational=np.inf), an.PointMass(2 / 3, 0.3)
@@ -126,6 +130,28 @@ def test_a_list_is_proven(name):
     assert proof.arcs > 16
     assert proof.precision_bits > 100
     assert an.prove(solve(beam, **settings)).to_dict()["balls"] is True
+
+
+def lossy(eta):
+    return replace(uniform(CLAMPED), loss_factor=np.full((2, 2), eta))
+
+
+def with_large_feedback():
+    K = np.array([[0, 1e4], [-1e4, 0]])
+    return uniform(CLAMPED).with_attachments(an.PointFeedback.of(1.0, K, abs(K) / 3))
+
+
+@pytest.mark.parametrize("beam", [lossy(0.5), with_large_feedback()], ids=["loss", "feedback"])
+def test_balls_prove_what_bounds_between_samples_do_not(beam):
+    result = solve(beam, damping="complex")
+    assert result.certificate["kind"] == "none"
+    assert any("not proven here" in warning for warning in result.warnings)
+    proof = result.prove()
+    assert proof.proven, proof.sentence
+    told = proof.applied(result)
+    assert told.certificate["kind"] == "winding"
+    assert told.certificate["balls"] is True
+    assert not any("not proven here" in warning for warning in told.warnings)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -156,6 +182,16 @@ def test_bars_and_shafts_are_proven_too():
 
 
 # --- and it can fail ------------------------------------------------
+
+
+def test_a_list_that_the_solver_itself_does_not_vouch_for_is_never_proven_wrongly():
+    """With a loss factor of 2 its secants meet one eigenvalue twice, and miss another."""
+    result = solve(lossy(2.0), damping="complex")
+    assert result.certificate["kind"] == "none"
+    squares = -(np.array([m.eigenvalue_per_s for m in result.modes]) ** 2)
+    exact = np.array([k**4 * (1 + 2j) for k in (1.8751040687, 4.6940911330, 7.8547574382)])
+    right = np.all(np.min(np.abs(squares[:, None] - exact), axis=0) < 1e-6 * np.abs(exact))
+    assert result.prove().proven <= bool(right)
 
 
 @pytest.mark.parametrize("name", ["cantilever", "Beck past flutter", "a dashpot at the tip"])

@@ -15,7 +15,9 @@ from antinode.beam.families import FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import InputError
 from antinode.extras import import_extra
+from antinode.modes import following
 from antinode.modes.backends import choose
+from antinode.modes.damped import family as damped_family
 from antinode.modes.damped.family import DampedFamily, solve_damped, without_dashpots
 from antinode.modes.damped.modes import shown
 from antinode.modes.result import ModalResult, Mode
@@ -26,7 +28,9 @@ from .function import Characteristic, Variable
 from .lists import Listed, Outcome, Verdict, prove_list
 
 _PADS = 0.05, 1e-3, 1e-5, 1e-7  # of the largest listed omega^2, by which the circle is larger
+_MORE = 12  # oscillating modes beyond those listed, which the solver's circle may need
 _WIDER = 1.0, 4.0, 16.0, 64.0  # of the same, further to the left
+_NOT_PROVEN = damped_family.NOT_PROVEN, following.NOT_PROVEN
 
 
 @dataclass(frozen=True)
@@ -67,6 +71,20 @@ class Proof:
             "ball_regions": self.regions,
         }
         return record if self.proven else record | {"balls_reason": self.sentence}
+
+    def applied(self, result: ModalResult) -> ModalResult:
+        """Return a result with this in its certificate.
+
+        What the solver could not prove, and balls could, is no warning any more.
+        """
+        certificate = {**result.certificate, **self.to_dict()}
+        if not self.proven or certificate["kind"] != "none":
+            return replace(result, certificate=certificate)
+        region = dict(next(iter(self.regions.values())))
+        del region["eigenvalues"]
+        kept = [w for w in result.warnings if not w.endswith(_NOT_PROVEN)]
+        certificate |= {"kind": "winding", "region": region}
+        return replace(result, certificate=certificate, warnings=tuple(kept))
 
 
 @dataclass(frozen=True)
@@ -199,35 +217,45 @@ def _complex(
     result: ModalResult, family: FamilyName, modes: Sequence[Mode]
 ) -> tuple[_Problem | None, Outcome]:
     """Prove the list of the circle in s that the solver states, and that it is what is shown."""
-    number = sum(1 for m in modes if m.eigenvalue is not None and m.eigenvalue.imag > 0)
-    solved = solve_damped(
-        result.beam, family, max(number, 1), result.tolerance, choose("numpy"), lossy=True
-    )
-    own = [m for m in modes if m.eigenvalue != 0]
-    reason = _differs(own, solved, max(number, 1))
+    own = [m for m in modes if m.eigenvalue]
+    number = sum(1 for m in own if m.eigenvalue_per_s.imag)
+    reach = max((abs(m.eigenvalue_per_s) + (m.error_per_s or 0.0) for m in own), default=0.0)
+    for more in range(_MORE):  # the least circle that holds all of them
+        wanted = max(number, 1) + more
+        solved = solve_damped(
+            result.beam, family, wanted, result.tolerance, choose("numpy"), lossy=True
+        )
+        if solved.certificate["region"]["abs_s_below"] > reach:
+            break
+    reason = _differs(own, solved, number) or _rests(len(modes) - len(own), solved)
     if reason:
         return None, Outcome("refuted", reason, -1, 0, 0)
     if not np.all(np.isfinite(solved.error)):
         return None, Outcome("undecided", "not every mode has an error", -1, 0, 0)
-    problem = _in_s(solved) if solved.damped.columns is None else _in_omega2(solved)
+    problem = _in_s(solved)
     return problem, problem.outcome()
 
 
 def _differs(own: Sequence[Mode], solved: DampedFamily, number: int) -> str:
     """Say how a result differs from the list that its beam has."""
-    kept = shown(solved, number)
-    for k in kept:
-        value, error = solved.eigenvalues[k], float(solved.error[k])
-        near = [m for m in own if abs(m.eigenvalue_per_s - value.s) <= error + _error(m)]
+    left = list(range(len(own)))
+    for k in shown(solved, max(number, 1)):
+        s, error = solved.eigenvalues[k].s, float(solved.error[k])
+        far = {i: abs(own[i].eigenvalue_per_s - s) for i in left}
+        near = [i for i in left if far[i] <= error + (own[i].error_per_s or 0.0)]
         if not near:
-            return f"the list lacks s = {value.s:.10g} 1/s"
-    if len(own) > len(kept):
-        return f"the list has {len(own)} modes, and the beam {len(kept)} up to there"
+            return f"the list lacks s = {s:.10g} 1/s"
+        left.remove(min(near, key=far.__getitem__))
+    if left:
+        extra = own[left[0]]
+        return f"the list has {extra.name} at s = {extra.eigenvalue_per_s:.10g} 1/s, the beam none"
     return ""
 
 
-def _error(mode: Mode) -> float:
-    return mode.error_per_s or 0.0
+def _rests(number: int, solved: DampedFamily) -> str:
+    """Say how many rigid modes at rest a result has, if the beam has others."""
+    right = len(solved.rest.motions)
+    return "" if number == right else f"the list has {number} modes at rest, the beam {right}"
 
 
 def _listed(solved: DampedFamily) -> Iterator[Listed]:
@@ -236,25 +264,20 @@ def _listed(solved: DampedFamily) -> Iterator[Listed]:
 
 
 def _in_s(solved: DampedFamily) -> _Problem:
-    """Return the list in s, conjugates too."""
-    listed = list(_listed(solved))
-    listed += [Listed(v.name, v.z.conjugate(), v.radius) for v in listed if v.z.imag]
-    radius = float(solved.certificate["region"]["abs_s_below"])
-    return _Problem(solved.damped, "s", 0.0, radius, listed, solved.rest.multiplicity)
+    """Return the list in s, with the conjugates.
 
-
-def _in_omega2(solved: DampedFamily) -> _Problem:
-    """Return the list in omega^2 where loss factors act: what they mean needs Im s > 0."""
-    if solved.damped.acting.C.any():
+    Where loss factors act D is that of Im s > 0, which depends on s^2 alone: its other zeros are
+    those of the list times -1.
+    """
+    lossy = solved.damped.columns is not None
+    if lossy and solved.damped.acting.C.any():
         raise InputError(
             "loss factors act beside dashpots, and no one entire function has the eigenvalues of "
             "both halves of the plane: leave out --prove, or one of them"
         )
-    listed = [
-        Listed(v.name, -(v.z**2), (2 * abs(v.z) + v.radius) * v.radius)
-        for v in _listed(solved)
-        if v.z.imag > 0 or v.z.real > 0
+    listed = list(_listed(solved))
+    listed += [
+        Listed(v.name, -v.z if lossy else v.z.conjugate(), v.radius) for v in listed if v.z.imag
     ]
-    radius = float(solved.certificate["region"]["abs_s_below"]) ** 2
-    zeros = solved.rest.multiplicity // 2
-    return _Problem(solved.damped, "omega2", 0.0, radius, listed, zeros)
+    radius = float(solved.certificate["region"]["abs_s_below"])
+    return _Problem(solved.damped, "s", 0.0, radius, listed, solved.rest.multiplicity)

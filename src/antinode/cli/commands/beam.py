@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 from antinode.cli.modal import check_modal_output, draw_effects, solve, write_modes
@@ -54,7 +53,7 @@ def beam(
         critical = buckling_of(result)
     proof = result.prove() if prove else None
     if proof:
-        result = replace(result, certificate={**result.certificate, **proof.to_dict()})
+        result = proof.applied(result)
     found = {"buckling": critical.to_dict() if critical else None} if buckling else {}
     if output.plot:
         from antinode.show.figures import plot_modes
