@@ -28,6 +28,7 @@ from antinode import (
     stability,
     sweep,
 )
+from antinode.modes.loading import under
 from antinode.show.end_forces import plot_end_forces
 from antinode.show.figures import PALETTE, plot_case, plot_loads, plot_modes, save
 from antinode.show.response_figures import plot_response
@@ -87,25 +88,28 @@ def stability_loci() -> None:
 
 
 def ziegler() -> None:
-    """Draw the flutter load of Beck's column over a dashpot at its tip."""
-    ends = Ends("clamped", right_follower=1.0)
-    beck = Beam.from_stations([0, 1], [1, 1], [1, 1], axial_force=[1, 1], ends=ends)
-    dashpots = np.geomspace(1e-3, 3.0, 15)
+    """Draw how fast the fastest mode of Beck's column grows, with a dashpot at its tip."""
+    forces, c = np.linspace(0.5, 21.0, 42), 1e-3
+    beck = Beam.from_stations(
+        [0, 1], [1, 1], [1, 1], axial_force=[1, 1], ends=Ends("clamped", right_follower=1.0)
+    )
     with styled() as plt:
         figure, axes = plt.subplots(figsize=(WIDTH, 0.5 * WIDTH), layout="constrained")
         for k, kind in enumerate(("translational", "rotational")):
-            damped = [
-                stability(beck.with_attachments(Dashpot(1.0, **{kind: c}))).damped for c in dashpots
+            damped = beck.with_attachments(Dashpot(1.0, **{kind: c}))
+            growth = [
+                max(m.growth_rate_per_s or 0.0 for m in solve_modes(under(damped, P), 3).modes)
+                for P in forces
             ]
-            loads = [np.nan if found is None else found.load_factor for found in damped]
             label = "against its motion" if kind == "translational" else "against its turn"
-            axes.semilogx(dashpots, loads, "o-", markersize=3, color=PALETTE[k], label=label)
-        flutter = stability(beck).flutter
-        assert flutter is not None
-        axes.axhline(flutter.load_factor, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
-        axes.annotate("no damping", (1e-3, flutter.load_factor), (0, 3), textcoords="offset points")
-        axes.set(xlabel="dashpot at the tip", ylabel="force at which a mode grows", ylim=(0, 25))
-        axes.legend(loc="lower right")
+            axes.plot(forces, np.array(growth) / c, color=PALETTE[k], label=f"a dashpot {label}")
+        axes.axhline(0.0, color=INK, linewidth=0.7)
+        axes.axvline(20.0509536190, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
+        axes.annotate("flutter without damping", (20.05, 1.5), (-4, 0), textcoords="offset points",
+                      ha="right", fontsize=8)  # fmt: skip
+        axes.set(xlabel="force that turns with the tip [EI/L^2]", ylim=(-2, 2))
+        axes.set(ylabel="growth of the fastest mode over c")
+        axes.legend(loc="lower left")
         save(figure, IMAGES / "howto_ziegler.png")
 
 
