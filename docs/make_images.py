@@ -105,11 +105,11 @@ def ziegler() -> None:
             axes.plot(forces, np.array(growth) / c, color=PALETTE[k], label=f"a dashpot {label}")
         axes.axhline(0.0, color=INK, linewidth=0.7)
         axes.axvline(20.0509536190, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
-        axes.annotate("flutter without damping", (20.05, 1.5), (-4, 0), textcoords="offset points",
+        axes.annotate("flutter without damping", (20.05, -1.6), (-4, 0), textcoords="offset points",
                       ha="right", fontsize=8)  # fmt: skip
         axes.set(xlabel="force that turns with the tip [EI/L^2]", ylim=(-2, 2))
         axes.set(ylabel="growth of the fastest mode over c")
-        axes.legend(loc="lower left")
+        axes.legend(loc="upper center")
         save(figure, IMAGES / "howto_ziegler.png")
 
 
