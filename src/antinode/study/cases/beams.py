@@ -26,6 +26,8 @@ from antinode.vehicle.refusals import OUT_OF_RANGE
 from .reasons import BEYOND_LIMITS, NO_BEAM
 from .values import Cases
 
+_OTHER = "a warning of its own: 'antinode loads' of that case alone says it"
+
 
 @dataclass(frozen=True)
 class CaseBeams:
@@ -79,11 +81,13 @@ def _on_arrays(cases: Cases, reason: Integers) -> CaseBeams:
 
 def load_messages(case: Case) -> tuple[str, ...]:
     """Return what the loads of cases that differ from one in numbers can warn of."""
-    return tuple(warning.message for warning in case.many_loads.warnings)
+    return (*(warning.message for warning in case.many_loads.warnings), _OTHER)
 
 
 def _doubts(loads: ManyLoads) -> npt.NDArray[np.bool_]:
-    return np.array([warning.concerns for warning in loads.warnings])
+    """Return which cases each message concerns; none on arrays has one of its own."""
+    known = [warning.concerns for warning in loads.warnings]
+    return np.array([*known, np.zeros(loads.cases.cases, dtype=bool)])
 
 
 def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
@@ -105,6 +109,7 @@ def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
         beams[i] = beam
         told = {warning.message for warning in many.warnings if warning.concerns[0]}
         doubts[:, i] = [message in told for message in messages]
+        doubts[-1, i] = not told <= set(messages)
         strained[i] = largest_strain(beam)[0] > MOST_STRAIN
         for name in LOAD_OUTPUTS:
             scalars[name][i] = many.numbers[name][0]
