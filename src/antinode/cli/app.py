@@ -43,9 +43,10 @@ COMMANDS = {
 
 for _name, (_place, _key) in COMMANDS.items():
     app.command(f"antinode.cli.commands.{_place}", name=_name, sort_key=_key)
+app.command("antinode.cli.commands.completion:install_completion", name="--install-completion")
 
 
 def import_all() -> None:
     """Import all commands, so that the list of them says what each does."""
-    for name in COMMANDS:
+    for name in (*COMMANDS, "--install-completion"):
         _ = app[name]
