@@ -329,3 +329,18 @@ def test_without_damping_everything_stays_as_it_was():
     complex_ = values(solve(replace(beam), damping="complex"))
     np.testing.assert_allclose(complex_.imag, np.sqrt([m.omega2 for m in plain.modes]), rtol=1e-10)
     assert np.max(np.abs(complex_.real)) < 1e-10
+
+
+@pytest.mark.parametrize("eta", [0.02, 1.0, 2.0, 3.0, 5.0])
+def test_large_loss_factors_in_closed_form(eta):
+    """s = i sqrt(1 + i eta) beta^2: on the way from no loss eigenvalues must not be mixed up."""
+    beam = an.Beam(
+        x=[0, 1],
+        mass_per_length=1,
+        bending_stiffness=1,
+        loss_factor=eta,
+        ends=an.Ends("clamped", "free"),
+    )
+    found = [m.eigenvalue for m in an.solve_modes(beam, 3, damping="complex").modes]
+    beta = [1.8751040687119611664, 4.6940911329741745764, 7.8547574382376125649]
+    assert found == pytest.approx([1j * (1 + 1j * eta) ** 0.5 * b**2 for b in beta], rel=1e-12)

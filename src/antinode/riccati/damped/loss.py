@@ -38,7 +38,7 @@ _WEIGHTS = 1.0, 1.25, 2.0, 5.0
 _MOST_HALVINGS = 4
 _RING = 16  # samples of D about an eigenvalue
 _RADII = 1e-11, 1e-10, 1e-9, 1e-8, 1e-7
-_STEPS = 4  # from no loss to all of it, where one does not do
+_STEPS = 4, 16, 64  # from no loss to all of it, where one does not do
 
 
 def with_loss(
@@ -61,14 +61,26 @@ def with_loss(
     start = np.array([v.s for v in roots.eigenvalues], dtype=complex)
     upper = start.imag > 0
     everyone: Numbers = np.concatenate([start, start[upper].conj()])
-    for part in np.linspace(0, 1, _STEPS + 1)[1:] if len(everyone) else ():
-        search = Search(_partly(damped, float(part)).characteristic, 0, roots.circle.radius, False)
-        everyone = search.run(np.asarray(everyone * (1 + 1e-9), dtype=complex), [])[0]
+    everyone = _traced(damped, everyone, roots.circle.radius)
     found = _enclosed(damped, everyone[: len(start)], start) if len(start) else []
     distinct = _distinct(everyone, roots.circle.radius)
     margin = min(roots.circle.margin, 1 - largest)
     circle = replace(roots.circle, margin=margin, loss=largest)
     return ComplexRoots(found, circle, distinct + roots.circle.at_zero)
+
+
+def _traced(damped: Damped, start: Numbers, radius: float) -> Numbers:
+    """Return where eigenvalues go as the loss grows: in steps that are shorter where two meet."""
+    if not len(start):
+        return start
+    for steps in _STEPS:
+        s = start
+        for part in np.linspace(0, 1, steps + 1)[1:]:
+            search = Search(_partly(damped, float(part)).characteristic, 0, radius, False)
+            s = search.run(np.asarray(s * (1 + 1e-9), dtype=complex), [])[0]
+        if _distinct(s, np.inf) == _distinct(start, np.inf):
+            break
+    return s
 
 
 def largest_beta(damped: Damped, ratio: Ratio, circle: Circle) -> float:
