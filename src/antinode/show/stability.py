@@ -10,7 +10,6 @@ import numpy as np
 from rich.console import Console
 from rich.text import Text
 
-from antinode.modes.result import not_modelled
 from antinode.text import counted
 
 from .printing import fitting, new_table, show_left_out, show_warnings
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from antinode.beam.beam import Beam
     from antinode.stability.influence import Influence
     from antinode.stability.result import CriticalLoad, DampedLoss, Stability
     from antinode.study.along.result import Along, StabilityMap
@@ -36,7 +34,7 @@ _KEPT = ((0, 1, 2, 3, 4, 5, 6), (0, 1, 2, 3, 4, 6), (0, 1, 3, 4, 6), (0, 1, 3, 6
 _PROOFS = {"counts": "counts", "winding": "winding number", "none": "not proven"}
 
 
-def show_stability(out: Console, result: Stability, beam: Beam) -> None:
+def show_stability(out: Console, result: Stability) -> None:
     """Print every change of stability, what lies between, warnings, and what is left out."""
     if result.critical:
         tables = (_critical_table(result.critical, kept) for kept in _KEPT)
@@ -47,7 +45,7 @@ def show_stability(out: Console, result: Stability, beam: Beam) -> None:
         out.print(Text(_with_dampers(result.damped)))
     out.print(f"[dim]{_between(result)}[/dim]", highlight=False)
     show_warnings(out, result.warnings)
-    show_left_out(out, not_modelled(beam))
+    show_left_out(out, result.not_modelled)
 
 
 def _critical_table(critical: Sequence[CriticalLoad], kept: Sequence[int]) -> Table:
@@ -150,6 +148,7 @@ def show_along(out: Console, result: Along) -> None:
     )
     out.print(f"[dim]{text}[/dim]", highlight=False)
     show_warnings(out, result.warnings)
+    show_left_out(out, result.not_modelled)
 
 
 def show_map(out: Console, result: StabilityMap) -> None:
@@ -163,6 +162,7 @@ def show_map(out: Console, result: StabilityMap) -> None:
         cells = ("" if np.isnan(v) else f"{v:.8g}" for v in (divergence, flutter))
         table.add_row(f"{value:.6g}", *cells, Text(reason))
     out.print(table)
+    show_left_out(out, result.not_modelled)
 
 
 def along_csv(result: Along) -> str:

@@ -102,6 +102,7 @@ class Followed:
     unstable : int
         Modes that are unstable where it begins.
     values : array, shape (values,)
+        All at which modes were solved: dense beside each change.
     roots : tuple of tuple of Root
         At each of them.
     solved : int
@@ -157,7 +158,7 @@ def follow(
             critical = critical[: 1 + flutter.index(True)]
             reach = critical[-1].bracket[1]
             break
-    seen = [value for value in values if value in solver.solved and value <= reach]
+    seen = sorted(value for value in solver.solved if value <= reach)
     unproven = sum(not state.proven for state in solver.solved.values())
     if unproven:
         told.append(

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -130,22 +131,14 @@ def damped_loss(beam: Beam, found: Stability) -> DampedLoss | None:
 
 def _sharpened(beam: Beam, step: _Bracket, least: float) -> DampedLoss:
     """Close in on the factor: on a coarse chain, then from there on refined ones."""
-
-    def coarse(factor: float) -> _Growth:
-        return _on_coarse_chain(beam, factor)
-
-    def refined(factor: float) -> _Growth:
-        return _refined(beam, factor)
-
+    coarse, refined = partial(_on_coarse_chain, beam), partial(_refined, beam)
     near = _closed(coarse, step, _COARSE_WIDTH, step.high, step.slope, least)
     found = _closed(refined, step, _WIDTH, near.high, near.slope, least)
-    ends = [end for end in (found.below, found.above) if end is not None]
-    proven = all(end.proven for end in ends) and not {id(end) for end in ends} & {
-        id(step.below),
-        id(step.above),
-    }
+    below, above = found.below, found.above
+    proven = above is not step.above and above.proven  # both ends on refined chains
+    proven &= below is None or (below is not step.below and below.proven)
     bracket = found.low, found.high
-    return DampedLoss(found.root, bracket, found.frequency_hz, found.above.name, proven)
+    return DampedLoss(found.root, bracket, found.frequency_hz, above.name, proven)
 
 
 def _closed(

@@ -119,13 +119,16 @@ def _rows(state: State, number: int) -> list[tuple[float, float]]:
 def rows_of_roots(roots: Sequence[Sequence[Root]], number: int) -> tuple[Array, Array]:
     """Return frequency [Hz] and growth [1/s] of the lowest eigenvalues in many lists.
 
-    Of shape (lists, number); of two that stand on the real axis at the same distance the one that
-    grows is told, and NaN where there are fewer.
+    Of shape (lists, number), NaN where there are fewer. Two that stand on the real axis are one
+    motion that does not oscillate: the one that grows more, or decays less, is told.
     """
     frequency = np.full((len(roots), number), np.nan)
     growth = frequency.copy()
     for k, row in enumerate(roots):
-        told = sorted((abs(r.s.imag), -r.s.real) for r in row if r.s.imag or r.s.real > 0)
-        for i, (omega, decay) in enumerate(told[:number]):
-            frequency[k, i], growth[k, i] = omega / (2 * np.pi), -decay
+        still = sorted((r.s.real for r in row if not r.s.imag), reverse=True)
+        motions = max(-(-len(still) // 2), sum(s > 0 for s in still))
+        told = [(0.0, s) for s in still[:motions]]
+        told += sorted(((abs(r.s.imag), r.s.real) for r in row if r.s.imag), key=lambda z: z[0])
+        for i, (omega, rate) in enumerate(told[:number]):
+            frequency[k, i], growth[k, i] = omega / (2 * np.pi), rate
     return frequency, growth

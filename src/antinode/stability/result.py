@@ -158,6 +158,8 @@ class Stability(StabilityMethods):
     damped : DampedLoss or None
         Where stability is first lost with the beam's dashpots and loss factors, which all else
         leaves out; None without any, or where it is not lost.
+    not_modelled : tuple of str
+        What the model leaves out.
     """
 
     name: str
@@ -168,6 +170,7 @@ class Stability(StabilityMethods):
     steps: int
     warnings: tuple[str, ...] = ()
     damped: DampedLoss | None = None
+    not_modelled: tuple[str, ...] = ()
 
     @property
     def flutter(self) -> CriticalLoad | None:
@@ -189,6 +192,7 @@ class Stability(StabilityMethods):
             "largest_axial_force_n": self.largest_force,
             "damped": self.damped.to_dict() if self.damped else None,
             "between": {"kind": self.complete, "steps": self.steps},
+            "not_modelled": list(self.not_modelled),
             "warnings": list(self.warnings),
         }
 

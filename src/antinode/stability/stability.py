@@ -19,6 +19,7 @@ from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import InputError
 from antinode.modes.backends import Backend, BackendName, choose, for_one
 from antinode.modes.loading import greatest_in_shear, loading
+from antinode.modes.result import not_modelled
 from antinode.modes.solve import HasBeam
 from antinode.riccati.chain import split_long
 
@@ -89,7 +90,7 @@ def stability(
     along = _followed if any(beam.following()) or beam.loads_turn else _counted
     found = along(beam, most, tolerance, solver)
     damped = damped_loss(beam, found) if dampers else None
-    return found if damped is None else replace(found, damped=damped)
+    return replace(found, damped=damped, not_modelled=not_modelled(beam))
 
 
 def _pieces(beam: Beam) -> int:

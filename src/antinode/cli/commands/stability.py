@@ -187,7 +187,7 @@ def _along_factor(
 
     out = console()
     show_beam(out, beam)
-    show_stability(out, result, beam)
+    show_stability(out, result)
     if moved is not None:
         show_influence(out, result.critical, moved)
 

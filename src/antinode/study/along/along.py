@@ -11,9 +11,11 @@ from collections.abc import Callable
 import numpy as np
 
 from antinode.arguments import whole
+from antinode.beam.beam import Beam
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.errors import AntinodeError, InputError
-from antinode.stability.along import CriticalValue, follow
+from antinode.modes.result import not_modelled
+from antinode.stability.along import CriticalValue, follow, is_lossy
 from antinode.stability.loci import Loci, Mark, rows_of_roots
 from antinode.stability.result import CriticalLoad
 from antinode.stability.stability import stability
@@ -24,6 +26,7 @@ from .inputs import Line, Problem, beam_at, line_of
 from .result import Along, StabilityMap
 
 _ON_LINE, _ON_MAP = 33, 17
+_DAMPERS = "dashpots and loss factors of the beam (they count along an input, not along the factor)"
 Range = tuple[str, Quantity, Quantity]
 """An input and its range: ``("condition.speed", "60 m/s", "140 m/s")``."""
 
@@ -71,7 +74,8 @@ def stability_along(
         points=_at_least_two(_ON_LINE if points is None else points),
         dampers=dampers,
     )
-    return Along(subject_of(problem).name, line, found)
+    first = beam_at(problem, [line], [line.low])
+    return Along(subject_of(problem).name, line, found, _left_out(first, dampers))
 
 
 def _at_least_two(points: int) -> int:
@@ -133,7 +137,17 @@ def stability_map(
             progress(k + 1, len(values))
     if all(reasons):
         raise InputError(f"no value of {other.name} has an answer; at the first one: {reasons[0]}")
-    return StabilityMap(subject_of(problem).name, line, other, values, tuple(found), tuple(reasons))
+    first = next(value for value, why in zip(values.tolist(), reasons, strict=True) if not why)
+    missing = _left_out(beam_at(problem, [other], [first]), dampers and line is not None)
+    name = subject_of(problem).name
+    return StabilityMap(name, line, other, values, tuple(found), tuple(reasons), missing)
+
+
+def _left_out(beam: Beam, dampers: bool) -> tuple[str, ...]:
+    """Return what is left out; the dampers of a beam first where they do not count."""
+    damped = is_lossy(beam)
+    own = (_DAMPERS,) if damped and not dampers else ()
+    return (*own, *not_modelled(beam, damped and dampers))
 
 
 def _row(

@@ -31,11 +31,14 @@ class Along(AlongMethods):
         The input and its range.
     found : Followed
         Changes, modes along the input, and warnings.
+    not_modelled : tuple of str
+        What the model leaves out.
     """
 
     name: str
     line: Line
     found: Followed
+    not_modelled: tuple[str, ...]
 
     @property
     def critical(self) -> tuple[CriticalValue, ...]:
@@ -69,6 +72,7 @@ class Along(AlongMethods):
             "unstable_at_start": self.found.unstable,
             "critical": [each.to_dict() for each in self.critical],
             "between": {"kind": "followed", "steps": self.found.solved},
+            "not_modelled": list(self.not_modelled),
             "warnings": list(self.warnings),
         }
 
@@ -99,6 +103,8 @@ class StabilityMap:
         At each of them, every change of stability along the first.
     reasons : tuple of str
         Why a value has no answer; empty where it has.
+    not_modelled : tuple of str
+        What the model leaves out.
     """
 
     name: str
@@ -107,6 +113,7 @@ class StabilityMap:
     values: Array
     critical: tuple[tuple[Critical, ...], ...]
     reasons: tuple[str, ...]
+    not_modelled: tuple[str, ...]
 
     def boundary(self, kind: str) -> Array:
         """Return where stability is first lost by a kind; NaN where it is not."""
@@ -126,6 +133,7 @@ class StabilityMap:
             "divergence": [null(v) for v in self.boundary("divergence").tolist()],
             "critical": [[each.to_dict() for each in row] for row in self.critical],
             "reasons": list(self.reasons),
+            "not_modelled": list(self.not_modelled),
         }
 
     def __repr__(self) -> str:

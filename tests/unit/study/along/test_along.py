@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import antinode as an
+from antinode.study.along.along import loci_along
 from cli_run import refused, run
 
 BECK = """
@@ -106,3 +107,27 @@ def test_bad_input_is_one_sentence(column, options, says):
         assert "no further than" in ended.out + ended.err
         return
     refused(run("stability", column, *options), says)
+
+
+def test_what_is_left_out_stands_beside_the_numbers(column):
+    """Dampers count along an input; along the factor they do not, and a map of it says so."""
+    column.write_text(column.read_text() + "[[beam.dashpots]]\nx = 1\ntranslational = 0.1\n")
+    along = run("stability", column, "--along", "axial_force = 0.5 .. 0.6", "--json", "--points", 2)
+    map_ = ("stability", column, "--map", "dashpots.0.translational = 0.1 .. 1", "--rows", 2)
+    left = [json.loads(ended.out)["not_modelled"] for ended in (along, run(*map_, "--json"))]
+    assert "damping" not in left[0]
+    assert not any("dashpots" in words for words in left[0])
+    assert "dashpots and loss factors of the beam" in left[1][0]
+    assert "dashpots and loss factors of the beam" in " ".join(run(*map_).out.split())
+
+
+def test_loci_run_into_the_change(column):
+    """Where a damped mode has just stopped to diverge it creeps back: two on the real axis."""
+    column.write_text(column.read_text() + "[[beam.dashpots]]\nx = 1\ntranslational = 0.05\n")
+    found = an.stability_along(an.load_beam(column), "ends.right_follower", 0, 1, points=9)
+    loci = loci_along(found)
+    change = found.critical[0]
+    assert change.change == "regained"
+    k = np.argmin(np.abs(loci.factor - change.value))
+    assert abs(loci.growth_per_s[k]).min() < 1e-3
+    assert np.nanmax(np.abs(np.diff(loci.frequency_hz[:, 1]))) < 0.5
