@@ -11,7 +11,7 @@ import pytest
 from antinode import load_beam, load_case, solve_modes
 from antinode.errors import InputError
 from antinode.examples import write_example
-from antinode.report.blocks import Table, runs, table
+from antinode.report.blocks import Figure, Table, runs, table
 from antinode.report.command import make_report, run_report
 from antinode.report.html import to_html
 from antinode.report.inputs import beam_inputs, case_inputs
@@ -302,7 +302,12 @@ def test_a_response_has_a_chapter(flight):
     assert set(result.warnings) <= set(told)
     page = to_html(document)
     assert "Not in these numbers" in page
-    assert page.count("<svg") == 1 + to_html(make_report(flight / "beam.toml")[0]).count("<svg")
+    drawings = [b for b in chapter.blocks if isinstance(b, Figure)]
+    others = to_html(make_report(flight / "beam.toml")[0]).count("<svg")
+    assert page.count("<svg") == len(drawings) + others
+    for drawing in drawings:  # at the width of the text each fits on a page, caption and all
+        sizes = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', drawing.svg)
+        assert float(sizes[2]) < 1.3 * float(sizes[1])
 
 
 def test_a_response_of_another_file_is_refused(flight, folder):

@@ -17,17 +17,59 @@ from .blocks import Block, Figure, Section, Table, paragraph, runs, table
 from .numbers import apart, number, percent, small
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Drawing
+    from matplotlib.transforms import Bbox
+
+_BESIDE = 0.03  # in, around panels that are cut out of a figure
 
 
 def drawn(name: str, figure: Drawing, caption: str) -> Figure:
     """Return a figure of matplotlib as a block, its text as text."""
+    svg = _svg(name, figure)
+    pyplot().close(figure)
+    return Figure(name, svg, runs(caption))
+
+
+def drawn_on_pages(name: str, figure: Drawing, caption: str, most: int = 3) -> list[Figure]:
+    """Return a figure of panels one below the other as blocks of at most so many panels each."""
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")  # panels stay where they are
+    rows: dict[float, list[Axes]] = {}  # two axes share a place where one has two scales
+    for axes in figure.axes:
+        rows.setdefault(round(axes.get_position().y0, 6), []).append(axes)
+    panels = [rows[y] for y in sorted(rows, reverse=True)]
+    if len(panels) <= most:
+        return [drawn(name, figure, caption)]
+    parts = [panels[k : k + most] for k in range(0, len(panels), most)]
+    boxes = [_around(figure, part, top=part is parts[0]) for part in parts]
+    blocks = []
+    for k, box in enumerate(boxes, 1):
+        own = name if k == 1 else f"{name}_{k}"
+        said = caption if k == 1 else "The same, further panels."
+        blocks.append(Figure(own, _svg(own, figure, box), runs(said)))
+    pyplot().close(figure)
+    return blocks
+
+
+def _around(figure: Drawing, panels: Sequence[Sequence[Axes]], *, top: bool) -> Bbox:
+    """Return the full width around some panels [in]; up to the figure's title at its top."""
+    from matplotlib.transforms import Bbox
+
+    own = (axes.get_tightbbox() for panel in panels for axes in panel)
+    whole = Bbox.union([box for box in own if box is not None])
+    width, height = (float(size) for size in figure.get_size_inches())
+    low, high = whole.y0 / figure.dpi - _BESIDE, whole.y1 / figure.dpi + _BESIDE
+    return Bbox.from_extents(0.0, max(low, 0.0), width, height if top else high)
+
+
+def _svg(name: str, figure: Drawing, part: Bbox | None = None) -> str:
     out = io.StringIO()
     with styled() as plt:
         plt.rcParams["svg.hashsalt"] = name
-        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    pyplot().close(figure)
-    return Figure(name, out.getvalue(), runs(caption))
+        about = {"Date": None, "Creator": None}
+        figure.savefig(out, format="svg", metadata=about, bbox_inches=part)
+    return out.getvalue()
 
 
 def frequency_section(result: ModalResult) -> Section:

@@ -15,7 +15,7 @@ from antinode.show.response_figures import plot_response
 from antinode.show.response_table import response_band, response_rows, verdict_rows
 
 from .blocks import Block, Document, Section, bullets, paragraph, table, warnings
-from .modal_sections import drawn
+from .modal_sections import drawn_on_pages
 from .provenance import hash_of
 
 _BEFORE = "Sensitivities"
@@ -116,7 +116,7 @@ def _blocks(problem: Problem, path: Path, result: Any) -> Iterator[Block]:
             + ("All are within." if not failed else f"{len(failed)} EXCEEDED.")
         )
         yield table(caption, own.heads, own.rows, left=own.left, marked=failed)
-    yield drawn(
+    yield from drawn_on_pages(
         f"response_{path.stem}",
         plot_response(result),
         "The response; thin lines are natural frequencies, points the peaks; of equipment what "
