@@ -14,7 +14,7 @@ from antinode.modes.following import Following
 from antinode.modes.refinement import solve_family
 from antinode.modes.rigid import exact_zeros
 from antinode.modes.solvers import Counting
-from antinode.riccati.following_roots import Finder
+from antinode.riccati.following.roots import Finder
 
 BACKEND = choose("numpy")
 

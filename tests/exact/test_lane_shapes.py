@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from antinode.riccati import shapes
-from antinode.riccati.following_roots import Finder
+from antinode.riccati.following.roots import Finder
 from antinode.riccati.lanes import calls as compiled
 from antinode.riccati.points import Point
 from antinode.riccati.roots import find_eigenvalues

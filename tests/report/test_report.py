@@ -28,6 +28,7 @@ TITLES = [
     "Ranges of the correlations",
     "Frequencies",
     "Effect of the axial force",
+    "What the end forces do",
     "Mode shapes",
     "Sensitivities",
     "Warnings",
@@ -142,13 +143,38 @@ def test_forces_that_turn_have_no_factor_of_buckling(folder):
     assert "No load factor" in effect[1]
 
 
+def test_every_choice_of_the_end_forces_stands_side_by_side(folder, starter):
+    """Each row against a case that states the choice, solved by itself."""
+    blocks = section(starter[0], "What the end forces do").blocks
+    found = {row[0]: row for row in texts(next(b for b in blocks if isinstance(b, Table)))}
+    choices = {
+        "fixed directions (this file)": "model.end_force=fixed_direction",
+        "thrust follows": "model.thrust_follows=1",
+        "thrust and cavitator follow": "model.end_force=follows_body",
+    }
+    assert list(found) == list(choices)
+    f1 = {}
+    for name, assignment in choices.items():
+        case = load_case(folder / "starter" / "case.toml", [assignment])
+        exact = solve_modes(case, families=["bending"], tolerance=1e-9).frequencies_hz()
+        shown = [float(cell) for cell in found[name][1:-2]]
+        np.testing.assert_allclose(shown, exact, rtol=1e-7, atol=5e-6)  # seven digits
+        f1[name] = exact[0]
+        assert re.fullmatch(r"\d\.\d × 10⁻[⁴-⁹]", found[name][-2].replace("\u00a0", " "))
+        told = found[name][-1].replace("\u2212", "-").replace("\u00a0%", "")
+        change = 100 * (exact[0] / f1["fixed directions (this file)"] - 1)
+        assert told == "–" if not change else abs(float(told) - change) < 0.05
+    assert f1["thrust and cavitator follow"] > 1.15 * f1["fixed directions (this file)"]
+    assert any(isinstance(b, Figure) for b in blocks)
+
+
 def test_html_is_one_file_that_loads_nothing(folder):
-    for name in ("starter/case.toml", "tower/beam.toml"):
+    for name, figures in (("starter/case.toml", 3), ("tower/beam.toml", 2)):
         page = to_html(make_report(folder / name)[0])
         assert "http" not in page
         assert not re.search(r"<(script|link|img|iframe)\b|@import|url\((?!#)", page)
         assert "bending 1" in page
-        assert page.count("<svg") == 2
+        assert page.count("<svg") == figures
 
 
 def test_a_study_without_shear_says_what_it_leaves_out(folder):

@@ -209,7 +209,7 @@ def test_a_beam_in_si_numbers_needs_numpy_alone(tmp_path):
             "antinode.show.schema",
             "antinode.modes.damped.modes",
             "antinode.riccati.damped.roots",
-            "antinode.riccati.following_roots",
+            "antinode.riccati.following.roots",
             "antinode.riccati.literal",
         }
         & own

@@ -1,7 +1,7 @@
 """The solver of beams with end forces that turn with the end: certified by winding numbers.
 
 The chain with fixed directions is solved with counts; the winding number of what the following ends
-make of it tells how many eigenvalues lie left of a line (`riccati.following_roots`).
+make of it tells how many eigenvalues lie left of a line (`riccati.following.roots`).
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ class Following(Solver):
             found = self.backend.find_following(chain, self.rigid, wanted, **settings)
             if found is not None:
                 return found
-        from antinode.riccati.following_roots import Finder
+        from antinode.riccati.following.roots import Finder
 
         def fixed(number: int) -> list[Eigenvalue]:
             return self.counting.find(chain.fixed, number, zeros=zeros).eigenvalues
@@ -123,7 +123,7 @@ def eigenvalues_alone(
         known = backend.find_following(chain, rigid, number, **settings)
         if known is not None:
             return known.eigenvalues
-    from antinode.riccati.following_roots import Finder
+    from antinode.riccati.following.roots import Finder
 
     def fixed(count: int) -> list[Eigenvalue]:
         return backend.find_eigenvalues(chain.fixed, count, zeros=zeros, width=width)

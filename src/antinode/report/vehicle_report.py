@@ -11,6 +11,7 @@ from antinode.vehicle.case import Case
 from antinode.vehicle.statics import deflection_warnings, static_shape
 
 from .blocks import Block, Document, Section, paragraph, runs, warnings
+from .end_forces_section import end_forces_section
 from .influence_section import influence_section
 from .inputs import case_inputs
 from .load_sections import load_sections
@@ -37,6 +38,7 @@ def vehicle_report(case: Case, result: ModalResult, source: Source, command: str
         *load_sections(case, _loads_figure(case)),
         frequency_section(result),
         axial_section(result),
+        *end_forces_section(case, result),
         shapes_section(result, "the nose"),
         influence_section(case_influences(case, result, _MOST_DRAWN)),
         warnings_section(told),

@@ -60,7 +60,8 @@ class Chain:
         What sits at the nodes, at most one for each node, in order.
     following : tuple of float
         kappa of the left and right end [N]: the part of its force that turns with a free end, where
-        then M = 0 and ``Q = kappa psi``. Counts know fixed directions alone: `riccati.following`.
+        then M = 0 and ``Q = kappa psi``. Counts know fixed directions alone: see
+        `riccati.following.ratio`.
     """
 
     law: Law
@@ -366,12 +367,13 @@ def end_frame(chain: Chain, side: int, units: Array, *, adjoint: bool = False) -
     """
     F = chain.law.admitted((chain.left, chain.right)[side], _beside(chain, side), units)
     kappa = chain.following[side]
-    return turning(F, _turn(kappa, units), adjoint) if kappa else F
+    return turning(F, force_for_turn(kappa, units), adjoint) if kappa else F
 
 
-def _turn(kappa: float, units: Array) -> Array:
-    """Return Q for a turn of one in the units of the states, shape (k,)."""
-    return np.asarray(kappa * units[:, 1] / units[:, -1])
+def force_for_turn(kappa: float | Array, units: Array) -> Array:
+    """Return Q for a turn of one in the units of the states, shape (k,), or (k, c) of kappas."""
+    one = units[:, 1] / units[:, -1]
+    return np.asarray(kappa * (one[:, None] if np.ndim(kappa) == 2 else one))
 
 
 def _beside(chain: Chain, side: int) -> dict[str, Any]:
@@ -384,7 +386,7 @@ def right_conditions(chain: Chain, units: Array) -> Array:
     rows, kappa = chain.law.conditions(chain.right, _beside(chain, -1), units), chain.following[-1]
     if kappa:
         rows = rows.copy()
-        rows[:, -1, 1] -= _turn(kappa, units)
+        rows[:, -1, 1] -= force_for_turn(kappa, units)
     return rows
 
 

@@ -121,7 +121,7 @@ class Tables(NamedTuple):
     points: Sequence[Point]
     """Their nodes are numbers of breakpoints."""
     following: tuple[float, float] = (0.0, 0.0)
-    """What turns with the ends [N] (`riccati.following`)."""
+    """What turns with the ends [N] (`riccati.following.ratio`)."""
 
 
 class BeamRoots(NamedTuple):

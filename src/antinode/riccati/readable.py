@@ -39,7 +39,7 @@ def certify_guesses(chains: Chains, guess: Array, below: int, width: float) -> C
 def find_following(
     chain: Chain, below: int, wanted: int, *, zeros: int, free: bool, width: float
 ) -> FollowingRoots | None:
-    """Return None: the winding number proves it (`riccati.following_roots`)."""
+    """Return None: the winding number proves it (`riccati.following.roots`)."""
     return None
 
 

@@ -6,6 +6,7 @@ stand the other choices, each solved on the chain that its own solution needed.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,9 +18,9 @@ from antinode.modes.backends import choose, for_one
 from antinode.modes.following import eigenvalues_alone
 from antinode.modes.hertz import error_hz, hertz
 from antinode.modes.result import ModalResult, null
-from antinode.modes.rigid import rigid_modes_of
+from antinode.modes.rigid import rigid_modes
 from antinode.riccati.chain import Chain
-from antinode.riccati.following_roots import Neighbours, neighbours
+from antinode.riccati.following.beside import Neighbours, neighbours
 from antinode.riccati.roots import CountingError
 
 from .case import Case
@@ -90,7 +91,7 @@ def compare_end_forces(case: Case, result: ModalResult) -> tuple[Choice, ...]:
     proven = result.certificate.get("kind") != "none"
     first = Choice(name, own, hertz(omega2), error_hz(omega2, error), proven, stated=True)
     others = [pair for pair in CHOICES if pair[1] != own]
-    return first, *(_solved(case, result, *pair, omega2, error) for pair in others)
+    return first, *_solved(case, result, others, omega2, error)
 
 
 def _solved_chain(result: ModalResult) -> Chain:
@@ -105,33 +106,36 @@ def _solved_chain(result: ModalResult) -> Chain:
 def _solved(
     case: Case,
     result: ModalResult,
-    name: str,
-    follow: tuple[float, float],
+    others: Sequence[tuple[str, tuple[float, float]]],
     known: Array,
     error: Array,
-) -> Choice:
-    """Solve another choice; its chain errs as much as that of the choice known, or twice that."""
-    forces = case.loads.F_CX, case.loads.thrust
-    ends = follow[0] * forces[0], follow[1] * forces[1]
-    chain = replace(_solved_chain(result), following=ends)
-    rigid = rigid_modes_of(result.beam.ends, BENDING)
-    zeros = rigid if not np.any(chain.axial_force) else 1
+) -> list[Choice]:
+    """Solve other choices side by side; their chain errs as much as that known, or twice that."""
+    chain = replace(_solved_chain(result), following=(0.0, 0.0))
+    ends = np.array([follow for _, follow in others]) * (case.loads.F_CX, case.loads.thrust)
+    rigid = len(rigid_modes(result.beam, BENDING))
     with np.errstate(all="ignore"):
-        found = neighbours(chain, known, rigid, zeros, _WIDTH)
-        if not found.eigenvalues:
-            found = _anew(chain, len(known), rigid, zeros)
+        found = neighbours(chain, ends, known, rigid, _WIDTH)
+        found = [
+            one if one.eigenvalues else _anew(replace(chain, following=tuple(f)), len(known), rigid)
+            for one, f in zip(found, ends.tolist(), strict=True)
+        ]
+    return [_choice(*pair, one, error) for pair, one in zip(others, found, strict=True)]
+
+
+def _choice(name: str, follow: tuple[float, float], found: Neighbours, error: Array) -> Choice:
     if not found.eigenvalues:
-        none = np.full(len(known), np.nan)
+        none = np.full(len(error), np.nan)
         return Choice(name, follow, none, none, proven=False, stated=False)
     omega2 = np.array([v.omega2 for v in found.eigenvalues])
-    half = np.array([v.bracket[1] - v.bracket[0] for v in found.eigenvalues])
-    off = error_hz(omega2, 2 * error + half)
+    width = np.array([v.bracket[1] - v.bracket[0] for v in found.eigenvalues])
+    off = error_hz(omega2, 2 * error + width)
     return Choice(name, follow, hertz(omega2), off, found.proven, stated=False)
 
 
-def _anew(chain: Chain, number: int, rigid: int, zeros: int) -> Neighbours:
-    """Solve a choice none of whose modes is next to those known: where some diverge, say."""
-    wanted = rigid + number
+def _anew(chain: Chain, number: int, rigid: int) -> Neighbours:
+    """Solve a choice whose modes are not all next to those known: where some diverge, say."""
+    wanted, zeros = rigid + number, 1 if np.any(chain.axial_force) else rigid
     try:
         solver = choose(for_one(len(chain.length), wanted))
         values = eigenvalues_alone(solver, chain, wanted, zeros, _WIDTH)

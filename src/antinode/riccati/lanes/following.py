@@ -21,7 +21,7 @@ By Cauchy and Schwarz ``P^2 <= f (S d + P)``, S = R + t, so that
 
     P <= f/2 + sqrt(f^2/4 + S f d).
 
-Where that makes abs(g - 1) < 1 (`riccati.following`), g does not turn about zero: as many
+Where that makes abs(g - 1) < 1 (`riccati.following.ratio`), g does not turn about zero: as many
 eigenvalues lie left of the line as with fixed directions. A sign of D tells that the rigid ones lie
 below the others.
 """

@@ -97,7 +97,7 @@ class Chain(NamedTuple):
     more: Array
     """What segments have besides, shape (5, n); (5, 0) where they have nothing."""
     following: Array
-    """What turns with the left and the right end, shape (2,): kappa (`riccati.following`)."""
+    """What turns with the left and the right end, shape (2,): kappa (`riccati.following.ratio`)."""
 
 
 class Scaled(NamedTuple):

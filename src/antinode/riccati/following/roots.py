@@ -1,26 +1,26 @@
 """Eigenvalues of a chain whose end forces follow: all of them left of a line, proven.
 
 How many lie left of a line ``Re omega^2 = R`` follows from the count of the chain with fixed
-directions, and the turns that g makes about zero along the line (`riccati.following`). The real
-ones are enclosed by changes of sign of the characteristic function; what is missing to the number
-are pairs of complex ones, each enclosed by a circle round which g turns once.
+directions, and the turns that g makes about zero along the line (`riccati.following.ratio`). The
+real ones are enclosed by changes of sign of the characteristic function; what is missing to the
+number are pairs of complex ones, each enclosed by a circle round which g turns once.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
-from .arrays import Array, Complex
-from .chain import Chain, evaluate, omega2_scale
-from .following import Following, beyond
-from .roots import Certificate, CountingError, Eigenvalue, FollowingRoots
-from .winding import Samples, Turns, around, holds_one, left_of
+from antinode.riccati.arrays import Array, Complex, Integers
+from antinode.riccati.chain import Chain, omega2_scale
+from antinode.riccati.roots import Certificate, CountingError, Eigenvalue, FollowingRoots
+from antinode.riccati.winding import Samples, Turns, around, holds_one, left_of
+
+from .ratio import Following, beyond
 
 FixedEigenvalues = Callable[[int], list[Eigenvalue]]
 """Returns at least so many eigenvalues, from the lowest, of the chain with fixed directions."""
@@ -100,7 +100,7 @@ class Finder:
             low = max(low, 0.0)
             for share in (0.5, 0.35, 0.65):
                 R = (low**0.25 + (high**0.25 - low**0.25) * share) ** 4
-                found = self.turns(R, low, high, poles[0].bracket[0])
+                found = turns_along(self.following, R, low, high, poles[0].bracket[0])
                 certificate = Certificate(R, below, found.number, found.samples, found.margin)
                 if found.proven and certificate.number >= wanted:
                     return certificate, poles
@@ -110,22 +110,6 @@ class Finder:
         if best is None:
             raise CountingError("no line was found above the eigenvalues that are wanted")
         return best, poles
-
-    def turns(self, R: float, low: float, high: float, lowest: float) -> Turns:
-        """Count turns of g along a line in a gap between eigenvalues of fixed directions."""
-        distance = 1.5 * max(R, -2 * lowest)
-        while True:
-            near = float(beyond(self.following.far_off(np.array([distance])), _SINE)[0])
-            if near < _ENOUGH or distance > 1e9 * R:
-                break
-            distance *= 4
-        gap = min(R - low, high - R)
-
-        def evaluate(at: Complex) -> Samples:
-            return self.following.samples(at, np.hypot(gap, at.imag))
-
-        height = math.sqrt(distance**2 - R**2)
-        return left_of(evaluate, R, 0.3 * gap, height, near)
 
     # --- the real ones ----------------------------------------------------------------------------
 
@@ -163,44 +147,8 @@ class Finder:
 
     def shrink(self, brackets: list[Bracket]) -> list[Eigenvalue]:
         """Shrink brackets to their width, all side by side."""
-        if not brackets:
-            return []
-        low, high, at_low, at_high = np.array(brackets).T.copy()
-        guess, old = (low + high) / 2, np.full(len(low), np.inf)
-        last, at_last = low.copy(), at_low.copy()
-        for turn in range(_PASSES):
-            size = np.maximum(self.width * np.maximum(np.abs(low), np.abs(high)), 2 * self._floor)
-            open_ = np.flatnonzero(high - low > size * (1 + 1e-9))
-            if not len(open_):
-                break
-            guess = _inverse_quadratic(low, high, at_low, at_high, last, at_last)
-            slow = (high - low > 0.5 * old) & (turn % 3 == 2)
-            guess = np.where(slow, _middle(low, high), guess)
-            old = high - low
-            points = []
-            for k in open_:
-                beside = np.array([guess[k] - 0.45 * size[k], guess[k] + 0.45 * size[k]])
-                points.append(beside[(beside > low[k]) & (beside < high[k])])
-            flat = np.concatenate(points)
-            if not len(flat):
-                break
-            values, start = self.divided(flat), 0
-            for k, own in zip(open_, points, strict=True):
-                for x, y in zip(own, values[start : start + len(own)], strict=True):
-                    if not low[k] < x < high[k]:
-                        continue
-                    if y * at_low[k] > 0:
-                        last[k], at_last[k] = low[k], at_low[k]
-                        low[k], at_low[k] = x, y
-                    else:
-                        last[k], at_last[k] = high[k], at_high[k]
-                        high[k], at_high[k] = x, y
-                start += len(own)
-        root = np.clip(_secant(low, high, at_low, at_high), low, high)
-        return [
-            Eigenvalue(0, float(x), (float(a), float(b)), (0, 0))
-            for x, a, b in zip(root, low, high, strict=True)
-        ]
+        least = 2 * self._floor
+        return shrink(brackets, lambda places, _: self.divided(places), self.width, least)
 
     # --- pairs that are missing -------------------------------------------------------------------
 
@@ -319,6 +267,75 @@ class Finder:
         return self.following.samples(z, np.min(np.abs(z[:, None] - fixed), axis=1))
 
 
+def turns_along(following: Following, R: float, low: float, high: float, lowest: float) -> Turns:
+    """Count turns of g along a line in a gap between eigenvalues of fixed directions."""
+    distance = 1.5 * max(R, -2 * lowest)
+    while True:
+        near = float(beyond(following.far_off(np.array([distance])), _SINE)[0])
+        if near < _ENOUGH or distance > 1e9 * R:
+            break
+        distance *= 4
+    gap = min(R - low, high - R)
+
+    def evaluate(at: Complex) -> Samples:
+        return following.samples(at, np.hypot(gap, at.imag))
+
+    height = math.sqrt(distance**2 - R**2)
+    return left_of(evaluate, R, 0.3 * gap, height, near)
+
+
+def shrink(
+    brackets: Sequence[Bracket],
+    values: Callable[[Array, Integers], Array],
+    width: float,
+    least: float = 0.0,
+) -> list[Eigenvalue]:
+    """Shrink brackets to their width, all side by side.
+
+    Parameters
+    ----------
+    values : callable
+        Returns what changes its sign, at places in the brackets of given numbers.
+    width : float
+        Relative.
+    least : float
+        And no narrower than this [rad^2/s^2].
+    """
+    if not len(brackets):
+        return []
+    low, high, at_low, at_high = np.array(brackets).T.copy()
+    guess, old = (low + high) / 2, np.full(len(low), np.inf)
+    last, at_last = low.copy(), at_low.copy()
+    for turn in range(_PASSES):
+        size = np.maximum(width * np.maximum(np.abs(low), np.abs(high)), least)
+        open_ = np.flatnonzero(high - low > size * (1 + 1e-9))
+        if not len(open_):
+            break
+        guess = _inverse_quadratic(low, high, at_low, at_high, last, at_last)
+        slow = (high - low > 0.5 * old) & (turn % 3 == 2)
+        guess = np.where(slow, _middle(low, high), guess)
+        old = high - low
+        beside = guess[open_, None] + 0.45 * size[open_, None] * np.array([-1.0, 1.0])
+        inside = (beside > low[open_, None]) & (beside < high[open_, None])
+        flat, owner = beside[inside], np.repeat(open_, 2)[inside.ravel()]
+        if not len(flat):
+            break
+        for k, x, y in zip(owner, flat, values(flat, owner), strict=True):
+            if not low[k] < x < high[k]:
+                continue
+            if y * at_low[k] > 0:
+                last[k], at_last[k] = low[k], at_low[k]
+                low[k], at_low[k] = x, y
+            else:
+                last[k], at_last[k] = high[k], at_high[k]
+                high[k], at_high[k] = x, y
+    root = np.clip(_secant(low, high, at_low, at_high), low, high)
+    return [
+        Eigenvalue(0, float(x), (float(a), float(b)), (0, 0))
+        for x, a, b in zip(root, low, high, strict=True)
+    ]
+
+
 def _ordered(found: list[Eigenvalue]) -> list[Eigenvalue]:
     """Return eigenvalues numbered by omega^2, complex ones by (Im s)^2, then Re s."""
     ordered = sorted(found, key=lambda value: (value.order, -value.imaginary))
@@ -383,64 +400,3 @@ def _muller(x: Complex, y: Complex) -> complex:
     root = np.sqrt(b * b - 4 * a * y[2] + 0j)
     below = b + root if abs(b + root) > abs(b - root) else b - root
     return complex(-2 * y[2] / below)
-
-
-# --- under other end forces -----------------------------------------------------------------------
-
-_SHARES = np.linspace(0.1, 0.9, 5)  # of the way to the next eigenvalue, where a gap is looked for
-
-
-class Neighbours(NamedTuple):
-    """Elastic eigenvalues, as many as were known."""
-
-    eigenvalues: list[Eigenvalue]
-    """Empty where they were not all enclosed."""
-    proven: bool
-
-
-def neighbours(chain: Chain, known: Array, rigid: int, zeros: int, width: float) -> Neighbours:
-    """Return the elastic eigenvalues of a chain near those under other end forces.
-
-    Changes of sign between the middles of what is known enclose them; counts, or turns about zero,
-    prove that there are no others. Where that does not hold the answer says so.
-
-    Parameters
-    ----------
-    chain : Chain
-    known : array, shape (n,)
-        Positive, ascending [rad^2/s^2].
-    rigid, zeros : int
-        Eigenvalues below them, and how many of these are exactly zero.
-    width : float
-        Relative width of brackets in omega^2.
-    """
-    finder = Finder(chain, lambda _: [], zeros, width)
-    x = known**0.25
-    step = x[-1] - x[-2] if len(x) > 1 else x[-1]
-    edges = np.concatenate([[0.6 * x[0]], (x[1:] + x[:-1]) / 2, [x[-1] + step / 2]]) ** 4
-    values = finder.divided(edges)
-    if not np.all(values[1:] * values[:-1] < 0):
-        return Neighbours([], False)
-    rows = zip(edges[:-1], edges[1:], values[:-1], values[1:], strict=True)
-    found = finder.shrink([(float(a), float(b), float(c), float(d)) for a, b, c, d in rows])
-    proven = _is_complete(finder, chain, found, rigid, float(edges[0]), step)
-    return Neighbours(found, proven)
-
-
-def _is_complete(
-    finder: Finder, chain: Chain, found: list[Eigenvalue], rigid: int, start: float, step: float
-) -> bool:
-    """Tell whether so many rigid eigenvalues, and those found, are all below a line above them."""
-    top, number = found[-1].omega2, rigid + len(found)
-    places = (top**0.25 + step * _SHARES) ** 4
-    counts = evaluate(chain.fixed, np.concatenate([places, [start, -top]])).below
-    if not chain.follows:
-        return bool(counts[-2] == rigid and np.any(counts[:-2] == number))
-    inside = np.flatnonzero(counts[:-2] == number)
-    if counts[-1] != 0 or len(inside) < 2 or np.any(np.diff(inside) != 1):
-        return False
-    low, high = places[inside[0]], places[inside[-1]]
-    turns = finder.turns(float((low + high) / 2), float(low), float(high), -top)
-    ends = finder.following.values(np.array([-top, start]))
-    even = rigid % 2 == 0  # of rigid ones, all below the others
-    return bool(turns.proven and turns.number == 0 and (ends[0] * ends[1] > 0) == even)

@@ -28,21 +28,23 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .arrays import Array, Complex
-from .chain import (
+from antinode.riccati.arrays import Array, Complex, Integers
+from antinode.riccati.chain import (
     Chain,
     Steps,
     block_starts,
-    characteristic,
     end_frame,
+    force_for_turn,
     make_steps,
     multiply_groups,
+    right_conditions,
     segment_transfers,
     split_long,
     state_units,
     sweep,
 )
-from .winding import Samples
+from antinode.riccati.frames import determinant, turning
+from antinode.riccati.winding import Samples
 
 _LARGEST_STACK = 2_000_000  # matrix entries held at once
 
@@ -58,6 +60,10 @@ class Receptances(NamedTuple):
     """psi of one end for Q of another, shape (ends, ends, k)."""
 
 
+Kept = dict[bytes, Receptances]
+"""Receptances by their omega^2, of chains that differ in nothing but the forces that follow."""
+
+
 @dataclass(frozen=True)
 class Following:
     """A chain with ends whose force follows.
@@ -65,14 +71,18 @@ class Following:
     Parameters
     ----------
     chain : Chain
+    kept : dict, optional
+        What chains under other end forces, and free at both ends, have asked for already.
     """
 
     chain: Chain
+    kept: Kept | None = None
 
     @cached_property
     def ends(self) -> tuple[int, ...]:
         """Sides of the ends that follow: 0 and -1."""
-        return tuple(side for side in (0, -1) if self.chain.following[side])
+        shared = self.kept is not None
+        return tuple(side for side in (0, -1) if shared or self.chain.following[side])
 
     @cached_property
     def kappa(self) -> Array:
@@ -81,12 +91,19 @@ class Following:
 
     def values(self, omega2: Array) -> Array:
         """Return the characteristic function at real omega^2, up to a positive factor, (k,)."""
-        return np.concatenate(self._split(omega2, self._characteristic))
+        which = np.zeros(len(omega2), dtype=np.int64)
+        return values_under(self.chain, omega2, np.array([self.chain.following]), which)
 
     def receptances(self, omega2: Array | Complex) -> Receptances:
         """Return the receptances of the chain with fixed directions."""
-        parts = self._split(omega2, self._receptances)
-        return Receptances(*(np.concatenate(v, axis=-1) for v in zip(*parts, strict=True)))
+        kept, key = self.kept, np.asarray(omega2).tobytes()
+        if kept is not None and key in kept:
+            return kept[key]
+        parts = _split(self.chain, omega2, self._receptances)
+        found = Receptances(*(np.concatenate(v, axis=-1) for v in zip(*parts, strict=True)))
+        if kept is not None:
+            kept[key] = found
+        return found
 
     def samples(self, omega2: Complex, reach: Array) -> Samples:
         """Return g off the real axis, bounded within the distance `reach` of any fixed eigenvalue.
@@ -129,14 +146,10 @@ class Following:
         size = np.sqrt(np.abs(Y.real) * np.abs(psi.real)) * np.abs(self.kappa)[:, None]
         return np.asarray(size)
 
-    def _characteristic(self, fine: Chain, omega2: Array, steps: Steps, units: Array) -> Array:
-        frames = sweep(steps, end_frame(fine, 0, units))
-        return frames.factor * characteristic(fine, frames.F[-1], units)
-
     def _receptances(
-        self, fine: Chain, omega2: Array, steps: Steps, units: Array
+        self, fine: Chain, rows: slice, steps: Steps, units: Array
     ) -> tuple[Complex, Complex, Complex]:
-        fixed, number, lanes = fine.fixed, len(self.ends), len(omega2)
+        fixed, number, lanes = fine.fixed, len(self.ends), len(units)
         Y, psi = np.zeros((2, number, lanes), complex)
         across = np.zeros((number, number, lanes), complex)
         for j, side in enumerate(self.ends):
@@ -153,20 +166,46 @@ class Following:
                 across[1 - j, j] = there[:, 1, 1] * units[:, 1] / units[:, 3]
         return Y, psi, across
 
-    def _split(self, omega2: Any, function: Callable[..., Any]) -> list[Any]:
-        """Return what a function makes of the steps of the chain, so many lanes at once."""
-        largest = float(np.max(np.abs(omega2)))
-        fine = split_long(self.chain, largest)
-        starts = block_starts(fine, largest)
-        together = max(1, _LARGEST_STACK // (16 * len(fine.length)))
-        found = []
-        for i in range(0, len(omega2), together):
-            lanes = omega2[i : i + together]
-            units = state_units(fine, lanes)
-            blocks = multiply_groups(segment_transfers(fine, lanes), starts)
-            steps = make_steps(fine, lanes, blocks, starts)
-            found.append(function(fine, lanes, steps, units))
-        return found
+
+def values_under(chain: Chain, omega2: Array, following: Array, which: Integers) -> Array:
+    """Return the characteristic function under several end forces, up to positive factors, (k,).
+
+    Parameters
+    ----------
+    chain : Chain
+    omega2 : array, shape (k,)
+        Real [rad^2/s^2].
+    following : array, shape (c, 2)
+        The part of the forces at both ends that turns with them [N].
+    which : array of int, shape (k,)
+        The end forces under which each omega^2 is asked about.
+    """
+    kappa = following[which]
+
+    def each(fine: Chain, rows: slice, steps: Steps, units: Array) -> Array:
+        fixed, turns = fine.fixed, force_for_turn(kappa[rows], units)
+        frames = sweep(steps, turning(end_frame(fixed, 0, units), turns[:, 0], adjoint=False))
+        conditions = right_conditions(fixed, units).copy()
+        conditions[:, -1, 1] -= turns[:, 1]
+        return np.asarray(frames.factor * determinant(conditions @ frames.F[-1]))
+
+    return np.concatenate(_split(chain, omega2, each))
+
+
+def _split(chain: Chain, omega2: Any, function: Callable[..., Any]) -> list[Any]:
+    """Return what a function makes of the steps of a chain, so many lanes at once."""
+    largest = float(np.max(np.abs(omega2)))
+    fine = split_long(chain, largest)
+    starts = block_starts(fine, largest)
+    together = max(1, _LARGEST_STACK // (16 * len(fine.length)))
+    found = []
+    for i in range(0, len(omega2), together):
+        rows = slice(i, i + together)
+        lanes = omega2[rows]
+        units = state_units(fine, lanes)
+        blocks = multiply_groups(segment_transfers(fine, lanes), starts)
+        found.append(function(fine, rows, make_steps(fine, lanes, blocks, starts), units))
+    return found
 
 
 def beyond(q: Array, sine: float) -> Array:

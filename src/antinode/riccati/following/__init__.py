@@ -1,0 +1,1 @@
+"""Ends whose force follows: eigenvalues beside those under forces of fixed direction."""
