@@ -7,6 +7,7 @@ Cases whose chains have as many segments are solved together.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -26,6 +27,9 @@ from antinode.beam.representation import GAUSS, coarsest_steps, halved
 from .forces import ForceOnBody, drag_ahead
 from .many_loads import ManyLoads
 from .theory import Sheared, sheared
+
+
+_TOGETHER = 512  # cases whose arrays stay near the processor
 
 
 @dataclass(frozen=True)
@@ -132,10 +136,11 @@ class ManyBeams:
         real = np.diff(x, axis=1) > 0
         number = real.sum(axis=1)
         for n in np.unique(number):
-            which = np.flatnonzero(number == n)
-            left = x[which, :-1][real[which]].reshape(len(which), n)
-            right = x[which, 1:][real[which]].reshape(len(which), n)
-            yield rows[which], left, right
+            alike = np.flatnonzero(number == n)
+            for which in np.array_split(alike, math.ceil(len(alike) / _TOGETHER)):
+                left = x[which, :-1][real[which]].reshape(len(which), n)
+                right = x[which, 1:][real[which]].reshape(len(which), n)
+                yield rows[which], left, right
 
     def _forces(self, rows: Any) -> list[ForceOnBody[Array]]:
         """Return the forces on some bodies; those that do not act stand at the tail."""

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -52,6 +53,27 @@ def test_certificates_and_brackets():
     assert np.all(high - low <= 1e-10 * high)
     assert np.all(result.error_hz > 0)
     assert np.all(result.error_hz < 2e-10 * result.frequencies_hz)
+
+
+@pytest.mark.parametrize("ends", [an.Ends(), an.Ends("clamped", "free", right_follower=0.5)])
+def test_wide_brackets_hold_what_narrow_ones_hold(ends):
+    """Found with fewer evaluations, and the root in them is as near."""
+    batch = replace(random_batch(np.random.default_rng(3), "free", "free", 100, 30), ends=ends)
+    narrow, wide = an.solve_many(batch), an.solve_many(batch, width=1e-6)
+    low, high = np.moveaxis(wide.bracket_omega2, -1, 0)
+    assert not narrow.reason.any() and not wide.reason.any()
+    assert np.all((low <= narrow.omega2) & (narrow.omega2 <= high))
+    assert np.all(high - low <= 1e-6 * high)
+    assert np.max(high / low - 1) > 1e-8
+    assert np.mean(wide.evaluations) < 0.85 * np.mean(narrow.evaluations)
+    np.testing.assert_allclose(wide.omega2, narrow.omega2, rtol=1e-10)
+
+
+@pytest.mark.parametrize("width", [1e-11, 1e-5, np.nan, "narrow"])
+def test_a_width_out_of_range_is_said(width):
+    batch = random_batch(np.random.default_rng(3), "free", "free", 1)
+    with pytest.raises(an.InputError, match=r"width is .*1e-10 \.\.\. 1e-06"):
+        an.solve_many(batch, width=width)
 
 
 @pytest.mark.parametrize("loads", [1, 2, 3])

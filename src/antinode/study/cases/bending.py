@@ -16,7 +16,7 @@ from antinode.arrays import Array, Integers
 from antinode.beam.ends import FREE
 from antinode.beam.families import BENDING, FAMILIES
 from antinode.modes.backends import choose
-from antinode.modes.batch import BeamBatch, solve_many
+from antinode.modes.batch import NARROW, BeamBatch, solve_many
 from antinode.modes.following import eigenvalues_alone
 from antinode.modes.hertz import settled
 from antinode.modes.rigid import rigid_modes_of, zeros_of
@@ -34,7 +34,9 @@ from .reasons import PAST_BUCKLING, failed
 IN_BATCHES = (BENDING,)
 """Families whose cases are solved together."""
 _SAMPLE = 32
-_WIDTH = 1e-10  # relative, of brackets
+_WIDEST = 1e-8  # of brackets, relative to omega^2
+_FOR_EFFECT = 1e-6  # of those that a frequency is only compared with
+_OF_TOLERANCE = 1e-2  # a bracket's part in what is allowed
 _SAFETY = 2.5  # for cases that are not in the sample
 _NEAR_BUCKLING = 1e-7  # share of the highest omega^2 below which the first may be a rigid one
 _FINEST = 32
@@ -94,18 +96,23 @@ def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
     x = np.linspace(0, study.vehicle_case.vehicle.length, points)
     for chains in beams.chains(rows, refinement):
         at = chains.rows
-        omega2, error, out.reason[at] = solve_free(chains, study.solve.modes)
+        omega2, error, out.reason[at] = solve_free(chains, study.solve.modes, _width(study))
         out.net_force[at] = net_force(chains)
         out.lowest_diverges[at] = lowest_diverges(chains, omega2, out.net_force[at])
         error = error + np.abs(omega2) * share * weight[at, None]
         out.omega2[at], out.error[at] = settled(omega2, error)
         out.reason[at[(out.reason[at] == PAST_BUCKLING) & (out.omega2[at, 0] >= 0)]] = 0
         if chains.more and "effect_of_shear" in study.outputs:
-            rigid, *_ = solve_free(chains.rigid, study.solve.modes)
+            rigid, *_ = solve_free(chains.rigid, study.solve.modes, _FOR_EFFECT)
             out.effect_of_shear[at] = effect_of_shear(omega2, rigid)
         if points:
             out.shapes[at] = _shapes(chains, omega2, out.reason[at], x)
     return out
+
+
+def _width(study: Study) -> float:
+    """Return how wide brackets may be, relative to omega^2: a small part of the tolerance."""
+    return min(max(_OF_TOLERANCE * study.solve.tolerance, NARROW), _WIDEST)
 
 
 def effect_of_shear(omega2: Array, rigid: Array) -> Array:
@@ -135,10 +142,10 @@ def _refine(study: Study, beams: CaseBeams, rows: Integers, weight: Array) -> tu
     levels: list[Array] = []
     while True:
         groups = beams.chains(sample, 2 ** len(levels))
-        levels.append(_omega2(groups, modes))
+        levels.append(_omega2(groups, modes, _width(study)))
         if len(levels) < _LEAST:
             continue
-        better, error = _judged(levels, max(map(_layer, groups)))
+        better, error = _judged(levels, max(map(_layer, groups)), _width(study))
         for level, omega2 in enumerate(levels):
             size = np.maximum(np.abs(better), 1e-3 * np.abs(better[:, -1:]))
             off = (np.abs(better - omega2) + error) / size / weight[sample, None]
@@ -150,12 +157,12 @@ def _refine(study: Study, beams: CaseBeams, rows: Integers, weight: Array) -> tu
             return 2 ** (len(levels) - 1), share
 
 
-def _judged(levels: list[Array], layer: float) -> tuple[Array, Array]:
+def _judged(levels: list[Array], layer: float, width: float) -> tuple[Array, Array]:
     """Return extrapolated omega^2 of every case and their errors, shape (cases, modes)."""
     better, error = np.zeros((2, *levels[-1].shape))
     with np.errstate(all="ignore"):
         for case, rows in enumerate(np.stack(levels[-4:], axis=1)):
-            extrapolate(rows, len(rows) - 1, 1e-10, layer, better[case], error[case])
+            extrapolate(rows, len(rows) - 1, width, layer, better[case], error[case])
     return better, error
 
 
@@ -164,19 +171,21 @@ def _layer(chains: Chains) -> float:
     return float(np.max(np.abs(chains.axial_force) * chains.length**2 / chains.stiffness))
 
 
-def _omega2(groups: list[Chains], modes: int) -> Array:
+def _omega2(groups: list[Chains], modes: int, width: float) -> Array:
     """Return omega^2 of all chains, in the order of their cases."""
     rows = np.concatenate([g.rows for g in groups])
-    omega2 = np.concatenate([solve_free(g, modes)[0] for g in groups])
+    omega2 = np.concatenate([solve_free(g, modes, width)[0] for g in groups])
     return np.asarray(omega2[np.argsort(rows)])
 
 
-def solve_free(chains: Chains, modes: int) -> tuple[Array, Array, Integers]:
+def solve_free(
+    chains: Chains, modes: int, width: float = NARROW
+) -> tuple[Array, Array, Integers]:
     """Return omega^2, its error and the reason for every chain; by frames where lanes fail."""
     tables = chains.length, chains.mass, chains.stiffness, chains.axial_force
     more: dict[str, Any] = sheared_columns(chains.more)
     batch = BeamBatch(*tables, modes=modes, following=chains.following, **more)
-    result = solve_many(batch)
+    result = solve_many(batch, width=width)
     omega2, error, reason = result.omega2, result.error_omega2, result.reason
     buckled = ~(omega2[:, 0] > _NEAR_BUCKLING * omega2[:, -1])
     for i in np.flatnonzero(failed(reason) | buckled).tolist():
@@ -229,7 +238,7 @@ def _by_frames(chain: Chain, modes: int) -> tuple[Array, Array] | None:
     zeros = zeros_of(FREE, chain)
     rigid = rigid_modes_of(FREE, chain.family)
     try:
-        found = eigenvalues_alone(choose("numba"), chain, modes + rigid, zeros, _WIDTH, rigid)
+        found = eigenvalues_alone(choose("numba"), chain, modes + rigid, zeros, NARROW, rigid)
     except (CountingError, FloatingPointError, ValueError):
         return None
     rest = elastic(found, rigid, chain)[:modes]
