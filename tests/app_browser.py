@@ -107,3 +107,16 @@ class Tab:
         field = self.page.get_by_label(label).and_(self.page.locator("input"))
         field.fill(text)
         field.press("Enter")
+
+    def drop(self, files):
+        """Drop files on the page, each with a name and a text."""
+        self.page.evaluate(
+            """(files) => {
+                const data = new DataTransfer();
+                for (const f of files) data.items.add(new File([f.text], f.name));
+                for (const type of ['dragenter', 'dragover', 'drop'])
+                    window.dispatchEvent(
+                        new DragEvent(type, {dataTransfer: data, cancelable: true}));
+            }""",
+            files,
+        )

@@ -369,6 +369,48 @@ def test_downloads(tab, address):
     assert_clean(tab, address)
 
 
+def test_a_click_on_a_frequency_shows_that_mode_everywhere(tab, address):
+    tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    tab.page.get_by_role("button", name="Show bending 2").click()
+    tab.page.wait_for_function("window.antinode.data.mode?.heading === 'bending 2, 10.555 Hz'")
+    pressed = tab.page.locator(".an-modebutton.an-pressed").all_inner_texts()
+    assert pressed == ["2"]
+    assert tab.page.get_by_label("Mode of the 3-D view").input_value() == "2"
+    assert "an-chosen" in tab.page.locator(".an-table tbody tr").nth(1).get_attribute("class")
+    tables = {  # panel, first cells of the table on the clipboard, and how many numbers there are
+        "Vehicle in its cavity, to scale, with the forces on it": ("force", "value", 6),
+        "Frequencies": ("mode", "frequency [Hz]", 7),
+        "Mode shapes": ("x [m]", "mode 2: Y", 100),
+        "Forces inside the body": ("curve", "x [m]", 240),
+        "Frequencies [Hz] against": ("thrust [kN]", "mode 1 [Hz]", 5),
+        "chosen panel": ("curve", "x [m]", 400),
+        "Body in mode": ("x / length", "radius / length", 61),
+    }
+    for panel, (*heads, least) in tables.items():
+        tab.page.get_by_label(f"Enlarge: {panel}", exact=True).click()
+        tab.page.get_by_label(f"Copy numbers: {panel}", exact=True).click()
+        tab.page.get_by_text("Copied: paste it").last.wait_for()
+        rows = tab.page.evaluate("navigator.clipboard.readText()").splitlines()
+        assert rows[0].split("\t")[:2] == heads, panel
+        assert len(rows) > least, panel
+        tab.page.keyboard.press("Escape")
+    assert_clean(tab, address)
+
+
+def test_an_enlarged_chart_zooms_by_the_wheel_and_shows_all_again(tab):
+    zoomed = (
+        "() => { const z = window.antinode.views.modes.instance.getOption().dataZoom?.[0];"
+        " return z ? z.end - z.start : 100; }"
+    )
+    assert tab.page.evaluate(zoomed) == 100
+    tab.page.get_by_label("Enlarge: Mode shapes").click()
+    tab.page.mouse.move(640, 400)
+    tab.page.mouse.wheel(0, -600)
+    tab.page.wait_for_function(f"({zoomed})() < 95")
+    tab.page.mouse.dblclick(640, 400)
+    tab.page.wait_for_function(f"({zoomed})() === 100")
+
+
 def axe(tab):
     """What axe-core finds wrong with the page as it stands."""
     package = pytest.importorskip("axe_playwright_python", reason="axe is not installed")

@@ -10,18 +10,19 @@ pytest.importorskip("nicegui", reason="nicegui is not installed (extra web)")
 
 from antinode import Beam, natural_frequencies
 from antinode.app.attached import KINDS, added, attached, entries, removed
-from antinode.app.compute import full_answer, quick_answer
+from antinode.app.compute import Answer, full_answer, quick_answer
 from antinode.app.inputs import sliders
 from antinode.app.panels.compare import compare_data, snapshot
 from antinode.app.panels.effects import effects_data, ends_data
 from antinode.app.panels.frequencies import frequencies_data
+from antinode.app.panels.mode import energies, mode_data
 from antinode.app.panels.sketch import sketch_data
 from antinode.app.panels.stability import stability_data
 from antinode.app.physics import changes_of, switches
 from antinode.app.quick import quick_modes
 from antinode.app.save import case_toml
 from antinode.app.source import read_example
-from antinode.app.state import File, State
+from antinode.app.state import File, State, View
 from antinode.beam.ends import Ends
 
 
@@ -184,10 +185,10 @@ def test_snapshots_lie_side_by_side():
     first = snapshot("A", state, full_answer(state))
     now = snapshot("now", changed, full_answer(changed))
     table = compare_data([first], now, "bending")
-    assert table["columns"] == ["", "A", "now"]
+    assert table["columns"] == ["mode", "A", "now"]
     a, b = (full_answer(s).full.frequencies_hz() for s in (state, changed))
     assert table["rows"][0] == [
-        "bending 1",
+        "1",
         f"{a[0]:.6g}",
         f"{b[0]:.6g} ({b[0] / a[0] - 1:+.2%})",
     ]
@@ -221,3 +222,36 @@ def test_quick_modes_with_shear_and_ends_that_follow_say_how_wrong_they_are():
     quick, exact = quick_modes(beam, 4), natural_frequencies(beam, 4, tolerance=1e-9)
     assert np.all(np.abs(quick.omega2 / exact.omega2 - 1) < 2e-4)
     assert np.all(np.abs(quick.omega2 - exact.omega2) < 3 * quick.error + 1e-9 * exact.omega2)
+
+
+def test_energies_of_a_mode_balance_and_a_cantilevers_moment_is_at_its_foot():
+    """What bends, shears and rests, with the axial force's work, is what moves."""
+    beam = Beam.from_stations(
+        [0.0, 1.0, 2.5, 4.0],
+        mass_per_length=[2.0, 1.0, 3.0, 1.0],
+        bending_stiffness=[8.0, 5.0, 6.0, 2.0],
+        shear_stiffness=[60.0, 40.0, 50.0, 30.0],
+        rotary_inertia_per_length=[0.02, 0.01, 0.02, 0.01],
+        foundation_stiffness=[0.3, 0.1, 0.2, 0.2],
+        axial_force=[0.4, 0.4, 0.4, 0.4],
+        interpolation="step",
+        ends=Ends(left="clamped"),
+    )
+    quick = quick_modes(beam, 3)
+    answer = Answer(example("beam").problem, beam, quick)
+    for k in range(3):
+        x, states, omega2 = quick.x, quick.states[:, k], float(quick.omega2[k])
+        parts, labels = energies(answer, "bending", x, states, omega2)
+        h = np.diff(x)[:, None] / 2
+        whole = {name: float(np.sum(h * values)) for name, values in parts.items()}
+        assert set(whole) == {"kinetic", "bending", "shear", "foundation", "axial force"}
+        kinetic = whole.pop("kinetic")
+        assert sum(whole.values()) == pytest.approx(kinetic, rel=2e-3)
+        strain = sum(v for name, v in whole.items() if name != "axial force")
+        assert strain == pytest.approx(1.0)
+        assert labels["shear"] == f"shear {100 * whole['shear']:.3g} %"
+    data = mode_data(answer, View(body=1))
+    moment = data["curves"][0]["lines"][0]["points"]
+    assert abs(moment[0][1]) == 1.0
+    assert abs(moment[-1][1]) < 1e-6
+    assert data["heading"].startswith("bending 1, ")

@@ -12,6 +12,7 @@ System = Literal["SI", "mm-t-s", "US"]
 SYSTEMS: tuple[System, ...] = ("SI", "mm-t-s", "US")
 
 _FOOT, _POUND, _LBF = 0.3048, 0.45359237, 4.4482216152605
+_PSI = _LBF / (_FOOT / 12) ** 2
 
 
 class Shown(NamedTuple):
@@ -40,7 +41,8 @@ _UNITS: dict[str, tuple[Shown, Shown, Shown]] = {
     "N m": (Shown("kN m", 1e3), Shown("N mm", 1e-3), Shown("lbf ft", _LBF * _FOOT)),
     "N m/rad": (Shown("kN m/rad", 1e3), Shown("N mm/rad", 1e-3), Shown("lbf ft/rad", _LBF * _FOOT)),
     "N m^2": (Shown("kN m²", 1e3), Shown("N mm²", 1e-6), Shown("lbf ft²", _LBF * _FOOT**2)),
-    "Pa": (Shown("kPa", 1e3), Shown("MPa", 1e6), Shown("psi", 6894.757293168361)),
+    "Pa": (Shown("kPa", 1e3), Shown("MPa", 1e6), Shown("psi", _PSI)),
+    "stiff Pa": (Shown("GPa", 1e9), Shown("MPa", 1e6), Shown("ksi", 1e3 * _PSI)),
 }
 
 

@@ -13,6 +13,8 @@ from antinode.beam.file import BeamFile
 from antinode.inputs.units import Unit
 from antinode.vehicle.case import Case
 
+from .display import Shown, System, shown_unit
+
 Problem = Case | BeamFile
 _MOST_SLIDERS = 6
 
@@ -40,6 +42,11 @@ class Input(NamedTuple):
     value: float
     low: float
     high: float
+
+    def shown(self, system: System) -> Shown:
+        """Return its unit on the screen; a material's stiffness has a larger one than pressures."""
+        stiff = self.unit == "Pa" and self.path.endswith("modulus")
+        return shown_unit("stiff Pa" if stiff else self.unit, system)
 
 
 def sliders(problem: Problem, original: Problem, more: tuple[str, ...] = ()) -> tuple[Input, ...]:
@@ -122,7 +129,14 @@ def _beam_paths(file: BeamFile) -> list[str]:
     every = [item.path for item in numbers(file) if item.value != 0 or "gravity" in item.path]
     loads = [p for p in every if p.startswith("beam.loads")]
     attached = [p for p in every if not p.startswith("beam.loads")]
-    return [*loads, *attached][:_MOST_SLIDERS]
+    return [*loads, *attached][:_MOST_SLIDERS] or _shares(file)
+
+
+def _shares(file: BeamFile) -> list[str]:
+    """Return the shares of forces at free ends that turn with them, where a force may be."""
+    forced = file.table.stations.axial_force is not None
+    sides = [side for side in ("left", "right") if getattr(file.table.ends, side) == "free"]
+    return [f"beam.ends.{side}_follower" for side in sides if forced]
 
 
 def numbers(problem: Problem) -> tuple[Input, ...]:
@@ -163,6 +177,10 @@ _WORDS = {
     "point_feedbacks": "feedback",
     "point_forces": "force",
     "roll_angles": "roll angle",
+    "youngs_modulus": "Young's modulus",
+    "poisson_ratio": "Poisson's ratio",
+    "left_follower": "left force follows",
+    "right_follower": "right force follows",
 }
 
 
@@ -172,6 +190,8 @@ def _label(keys: tuple[str, ...]) -> str:
     outer = words[1:-1] if words[0] in ("vehicle", "beam", "condition") else words[:-1]
     outer = [word for word in outer if word != "loads"]
     text = words[-1]
+    if keys[-1].endswith("_follower"):
+        return text
     return f"{' '.join(outer)}: {text}" if outer else text
 
 
@@ -180,6 +200,8 @@ _RANGES: dict[str, tuple[float, float]] = {
     "condition.burn_fraction": (0.0, 1.0),
     "condition.cavitator_angle": (math.radians(-25), math.radians(25)),
     "condition.body_angle": (math.radians(-10), math.radians(10)),
+    "beam.ends.left_follower": (0.0, 1.0),
+    "beam.ends.right_follower": (0.0, 1.0),
 }
 
 

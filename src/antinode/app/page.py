@@ -17,6 +17,7 @@ from antinode.beam.families import FAMILIES, FamilyName
 from antinode.errors import AntinodeError
 from antinode.examples import EXAMPLES
 
+from .compute import wanted_modes
 from .controls.attach import Attachments
 from .controls.downloads import Downloads
 from .controls.equipment import EquipmentFields
@@ -79,6 +80,8 @@ class Page:
             self._board.on("ready", self._ready)
             self._board.on("refused", lambda e: self._note(str(e.args)))
             self._board.on("moved", self._moved)
+            self._board.on("chosen", self._choose)
+            self._board.on("told", lambda e: self._tell(str(e.args)))
             self._board.on("released", self.session.release)
             self._head = ui.element("header").classes("an-head")
             Picture("strip", "Frequencies in short", role="region").classes("an-strip")
@@ -103,6 +106,7 @@ class Page:
         with self._client:
             self._fields.refresh(problem_inputs, moving)
             self._more.refresh()
+            self._name_curve()
             state = self.session.state
             self._switches.refresh(switches(state.problem, state.beam, state.original))
             if self._attachments is not None:
@@ -239,16 +243,16 @@ class Page:
             pass
         with card("curve", "Frequencies [Hz] against"):
             self._curve_select()
-        PanelChoice(self.session, self._note).build()
+        self._panel = PanelChoice(self.session, self._note)
+        self._panel.build()
         with card("body", "Body in mode"):
-            count = self._modes_shown()
-            ui.select(
+            count = wanted_modes(self.session.state.original)
+            self._body = ui.select(
                 list(range(1, count + 1)),
                 value=min(view.body, count),
                 on_change=lambda e: self.session.look(body=int(e.value or 1)),
-            ).props('dense borderless options-dense aria-label="Mode of the 3-D view"').classes(
-                "an-pick an-narrow"
-            )
+            ).props('dense borderless options-dense aria-label="Mode of the 3-D view"')
+            self._body.classes("an-pick an-narrow")
             ui.label("turn with the mouse").classes("an-hint")
             back = ui.button(icon="restart_alt", color=None, on_click=self._board.reset)
             back.props('flat dense round size=sm aria-label="Look from the first direction again"')
@@ -274,16 +278,23 @@ class Page:
         button.props(f'aria-pressed="{state}" aria-label="mode {number}"')
 
     def _curve_select(self) -> None:
+        words = 'dense borderless options-dense aria-label="Input of the curve"'
+        self._curve = ui.select({}, on_change=self._run_over).props(words)
+        self._curve.classes("an-pick an-wide").mark("curve")
+        self._name_curve()
+
+    def _name_curve(self) -> None:
+        """Offer the numbers that there are now, and name the one that the curve runs over."""
         state = self.session.state
-        every = {item.path: item.label for item in numbers(state.original)}
-        item = self.session.curve_input(state, sliders(state.original, state.original))
-        ui.select(
-            every,
-            value=item.path if item and item.path in every else None,
-            on_change=lambda e: self.session.look(curve=str(e.value or "")),
-        ).props('dense borderless options-dense aria-label="Input of the curve"').classes(
-            "an-pick an-wide"
-        ).mark("curve")
+        every = {item.path: item.label for item in numbers(state.problem)}
+        item = self.session.curve_input(state, sliders(state.problem, state.original))
+        self._named = value = item.path if item and item.path in every else None
+        if (self._curve.options, self._curve.value) != (every, value):
+            self._curve.set_options(every, value=value)
+
+    def _run_over(self, event: events.ValueChangeEventArguments[Any]) -> None:
+        if event.value and event.value != self._named:
+            self.session.look(curve=str(event.value))
 
     # --- what the controls do ---------------------------------------------------------------
 
@@ -310,6 +321,17 @@ class Page:
             self.session.look(modes=tuple(sorted(chosen)))
 
         return toggle
+
+    def _choose(self, event: events.GenericEventArguments) -> None:
+        """Show one mode everywhere: its shape, forces and energies, the body in it."""
+        number = int(event.args)
+        if number not in self._body.options:
+            return
+        self.session.look(modes=(number,), body=number, panel="mode")
+        for other in self._buttons:
+            self._press(other, other == number)
+        self._body.value = number
+        self._panel.choose("mode")
 
     def _toggle_play(self) -> None:
         self._playing = not self._playing
@@ -349,8 +371,11 @@ class Page:
         except AntinodeError as error:
             self._note(str(error))
             return
-        ui.run_javascript("navigator.clipboard?.writeText(location.href)")
-        ui.notify("The link is copied; it brings this view back.", position="bottom-right")
+        ui.run_javascript("window.antinode.copyLink()")
+
+    def _tell(self, sentence: str) -> None:
+        with self._client:
+            ui.notify(sentence, position="bottom-right", timeout=2500, classes="an-told")
 
     def _note(self, sentence: str) -> None:
         with self._client:

@@ -6,34 +6,49 @@ from typing import Any
 
 import numpy as np
 
+from antinode.beam.families import FAMILIES, FamilyName
 from antinode.modes.hertz import hertz
 from antinode.modes.result import null
 
 from .compute import Answer
 from .panels.numbers import short_list
+from .quick import QUICK_FAMILY
 
 _RINGS = 61
 _SLENDER = 0.015  # radius over length of a beam whose radius nobody knows
 
 
-def body_data(answer: Answer, number: int) -> dict[str, Any]:
-    """Return rings of the body and the shape of a bending mode at them, over the length.
+_WAYS = {0: "along", 3: "about"}
+"""How a body moves by the first freedom of a family; across its axis in all others."""
+
+
+def body_data(answer: Answer, number: int, family: FamilyName = QUICK_FAMILY) -> dict[str, Any]:
+    """Return rings of the body and the shape of a mode at them, over the length.
 
     Parameters
     ----------
     answer : Answer
     number : int
-        Of the bending mode; the last one where there are fewer.
+        Of the mode; the last one where there are fewer.
+    family : str
+        Bending, while the full result of another one is not there.
     """
-    quick, beam = answer.quick, answer.beam
-    k = min(number, len(quick.omega2)) - 1
+    beam = answer.beam
+    modes = [m for m in answer.full.family(family) if m.number] if answer.full else []
+    other = family != QUICK_FAMILY and bool(modes)
+    k = min(number, len(modes) if other else len(answer.quick.omega2)) - 1
+    places, Y, omega2 = (
+        (answer.full.x, modes[k].states[:, 0], modes[k].omega2)
+        if other and answer.full
+        else (answer.quick.x, answer.quick.states[:, k, 0], float(answer.quick.omega2[k]))
+    )
     x = np.linspace(beam.x[0], beam.x[-1], _RINGS)
-    shape = np.interp(x, quick.x, quick.states[:, k, 0])
-    omega2 = float(quick.omega2[k])
+    shape = np.interp(x, places, Y)
     return {
         "x": short_list((x - beam.x[0]) / beam.length),
         "radius": short_list(_radius(answer, x) / beam.length),
         "shape": short_list(shape / (np.max(np.abs(shape)) or 1.0)),
+        "way": _WAYS.get(FAMILIES[family].freedoms[0], "across") if other else "across",
         "number": k + 1,
         "hertz": null(hertz(omega2)),
         "fins": _fins(answer),

@@ -25,6 +25,7 @@ from .panels.curve import cursor_data, curve_data, no_curve
 from .panels.effects import effects_data, ends_data
 from .panels.forces import forces_data
 from .panels.frequencies import baseline_of, frequencies_data
+from .panels.mode import mode_data
 from .panels.modes import modes_data
 from .panels.notes import notes_data
 from .panels.response import response_data
@@ -283,17 +284,19 @@ class Session:
             "frequencies": frequencies_data(answer, view),
             "characteristic": characteristic_data(answer),
             "notes": notes_data(answer, view.units),
-            "body": body_data(answer, view.body),
+            "body": body_data(answer, view.body, view.family),
         }
         if answer.case is not None:
             data["vehicle"] = vehicle_data(answer.case, view.units)
         else:
             data["beam"] = sketch_data(answer, view.units)
+        if view.panel == "mode":
+            data["mode"] = mode_data(answer, view)
         if view.panel == "response" and answer.full is None:
             data["response"] = self._response_now(state, answer)
         item = self.curve_input(state, inputs)
-        if item is not None:
-            data["curve"] = self._curve_patch(state, item, answer)
+        nothing = {"said": "Attach something, or add a slider: this shows what it does."}
+        data["curve"] = nothing if item is None else self._curve_patch(state, item, answer)
         return answer, data, inputs
 
     def _beside(self, state: State) -> State | None:

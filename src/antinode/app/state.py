@@ -42,7 +42,7 @@ _MOST_UNPACKED = 2_000_000
 _TELLING = 12  # characters of a fingerprint in a link
 
 
-Panel = Literal["characteristic", "response", "effects", "ends", "stability", "compare"]
+Panel = Literal["characteristic", "mode", "response", "effects", "ends", "stability", "compare"]
 
 
 class View(Frozen):

@@ -243,6 +243,24 @@ class Lateral(Law):
         work = force @ squares.turn
         return Forms(mass, strain, work, strain + np.abs(force) @ squares.turn)
 
+    def densities(self, columns: Columns, z: Array, omega2: float) -> dict[str, Array]:
+        """Return those of motion, bending, shear, foundation, and the axial force's work.
+
+        The force's is what the others leave of ``s Q^2 - (N + sN^2) psi^2``.
+        """
+        Y2, psi2, M2, V2, Q2 = self.squares(columns, z)
+        every = (np.broadcast_to(c, len(z))[:, None] for c in _more(columns))
+        s, _, work, rotary, foundation = every
+        mass, EI, N = (columns[name][:, None] for name in self.columns)
+        shear = s * V2
+        return {
+            "kinetic": omega2 * (mass * Y2 + rotary * psi2),
+            self.name: M2 / EI,
+            "shear": shear,
+            "foundation": foundation * Y2,
+            "axial force": s * Q2 - shear - (N + work) * psi2,
+        }
+
     def point_energies(self, point: Point, state: Array, last: bool) -> tuple[Array, Array]:
         """Return those of a rigid mass, springs and a joint that turns."""
         return lateral_energies(point, state, last)

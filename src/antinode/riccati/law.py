@@ -219,6 +219,18 @@ class Law(ABC):
         """Return the quadratic forms of the segments."""
 
     @abstractmethod
+    def densities(self, columns: Columns, z: Array, omega2: float) -> dict[str, Array]:
+        """Return twice the energies per length by name, as `forms` sums them.
+
+        Parameters
+        ----------
+        columns : mapping
+            Of the segments.
+        z : array, shape (segments, points, components)
+        omega2 : float
+        """
+
+    @abstractmethod
     def point_energies(self, point: Point, state: Array, last: bool) -> tuple[Array, Array]:
         """Return a point's shares of modal mass and stiffness, from states (k, s) on its right."""
 

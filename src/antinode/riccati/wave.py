@@ -98,6 +98,12 @@ class Wave(Law):
         strain = (1 / columns["stiffness"]) @ squares.moment
         return Forms(columns["mass"] @ squares.displacement, strain, 0 * strain, strain)
 
+    def densities(self, columns: Columns, z: Array, omega2: float) -> dict[str, Array]:
+        """Return those of motion and strain."""
+        u2, _, F2, _, _ = self.squares(columns, z)
+        mass, stiffness = columns["mass"][:, None], columns["stiffness"][:, None]
+        return {"kinetic": omega2 * mass * u2, self.name: F2 / stiffness}
+
     def point_energies(self, point: Point, state: Array, last: bool) -> tuple[Array, Array]:
         """Return those of a mass, a spring and a joint."""
         return wave_energies(point, state, last, self.sign)

@@ -6,7 +6,7 @@ import math
 
 from nicegui import events, ui
 
-from antinode.app.display import number_text, shown_unit
+from antinode.app.display import number_text
 from antinode.app.inputs import Input
 from antinode.app.session import Session
 from antinode.app.state import Value
@@ -31,7 +31,7 @@ class Field:
 
     def __init__(self, item: Input, session: Session) -> None:
         self.item, self._session = item, session
-        self.unit = shown_unit(item.unit, session.state.view.units)
+        self.unit = item.shown(session.state.view.units)
         self._anchor = self._of(item.value)
         self._step = nice_step(self._of(item.high) - self._of(item.low))
         self._ends = self._grid(item)

@@ -15,6 +15,7 @@ from .response import ResponseFields
 
 TITLES = {
     "characteristic": "Characteristic function",
+    "mode": "Forces and energies of a mode",
     "response": "Response",
     "effects": "What each effect does",
     "ends": "End forces side by side",
@@ -46,9 +47,9 @@ class PanelChoice:
         chosen = chosen if chosen in titles else "characteristic"
         with ui.element("section").classes("an-card an-at-characteristic"):
             with ui.element("div").classes("an-cardhead"):
-                ui.select(titles, value=chosen, on_change=self._chosen).props(
-                    'dense borderless options-dense aria-label="What this panel shows"'
-                ).classes("an-pick an-wide an-titled").mark("panel")
+                words = 'dense borderless options-dense aria-label="What this panel shows"'
+                self._choice = ui.select(titles, value=chosen, on_change=self._chosen).props(words)
+                self._choice.classes("an-pick an-wide an-titled").mark("panel")
                 self._build_compare()
                 self._response = ResponseFields(self._session)
                 self._copy = ui.button(icon="content_copy", color=None)
@@ -57,7 +58,7 @@ class PanelChoice:
                 self._copy.on("click", js_handler=script)
                 enlarge_button("chosen panel")
             for name, title in titles.items():
-                role = "img" if name == "characteristic" else "region"
+                role = "img" if name in ("characteristic", "mode") else "region"
                 self._pictures[name] = Picture(name, title, role=role)
         self._show(chosen)
 
@@ -84,6 +85,10 @@ class PanelChoice:
     def _chosen(self, event: events.ValueChangeEventArguments[Any]) -> None:
         self._show(str(event.value))
         self._session.look(panel=event.value)
+
+    def choose(self, name: str) -> None:
+        """Choose what the card shows."""
+        self._choice.value = name
 
     def _show(self, chosen: str) -> None:
         for name, picture in self._pictures.items():

@@ -57,7 +57,7 @@ def compare_data(kept: Sequence[Snapshot], now: Snapshot, family: FamilyName) ->
     names = [name for name in now.hertz if name.startswith(f"{family} ")]
     rows: list[list[str]] = [
         [
-            name,
+            name.removeprefix(f"{family} "),
             *(_frequency(one.hertz.get(name), kept[0].hertz.get(name)) for one in every),
         ]
         for name in names
@@ -67,7 +67,7 @@ def compare_data(kept: Sequence[Snapshot], now: Snapshot, family: FamilyName) ->
         if len(set(values)) > 1:
             rows.append([label, *values])
     meaning = "Frequencies [Hz], in brackets the change against the first; below, what differs."
-    return sheet(["", *(one.name for one in every)], rows, (), meaning)
+    return sheet(["mode", *(one.name for one in every)], rows, (), meaning)
 
 
 def _frequency(value: float | None, first: float | None) -> str:

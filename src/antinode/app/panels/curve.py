@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from antinode.app.curve import Curve
-from antinode.app.display import System, shown_unit
+from antinode.app.display import System
 from antinode.app.inputs import Input
 from antinode.arrays import Array
 from antinode.modes.hertz import hertz
@@ -17,7 +17,7 @@ from .numbers import pairs, short_list
 
 def curve_data(curve: Curve, item: Input, system: System) -> dict[str, Any]:
     """Return one line a mode, over the input in units of the screen."""
-    unit = shown_unit(item.unit, system)
+    unit = item.shown(system)
     frequencies = hertz(curve.omega2)
     x = curve.values / unit.factor
     return {
@@ -37,4 +37,4 @@ def no_curve(item: Input, system: System) -> dict[str, Any]:
 def cursor_data(item: Input, omega2: Array, system: System) -> dict[str, Any]:
     """Return the present value of the input and the frequencies there."""
     shown = short_list(hertz(omega2), 5)
-    return {"value": shown_unit(item.unit, system).of(item.value), "hertz": shown}
+    return {"value": item.shown(system).of(item.value), "hertz": shown}

@@ -25,13 +25,15 @@ def forces_data(answer: Answer, system: System) -> dict[str, Any]:
                 "name": name,
                 "title": title,
                 "unit": shown_unit(si, system).name,
-                "points": pairs(
-                    x / shown_unit("m", system).factor, y / shown_unit(si, system).factor
-                ),
+                "lines": [{"name": "", "points": _points(x, y, si, system)}],
             }
             for name, title, si, x, y in _curves(answer)
         ],
     }
+
+
+def _points(x: np.ndarray, y: np.ndarray, si: str, system: System) -> list[list[float | None]]:
+    return pairs(x / shown_unit("m", system).factor, y / shown_unit(si, system).factor)
 
 
 def _curves(answer: Answer) -> list[tuple[str, str, str, np.ndarray, np.ndarray]]:

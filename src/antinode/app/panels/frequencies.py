@@ -50,6 +50,7 @@ def frequencies_data(answer: Answer, view: View) -> dict[str, Any]:
         "band": list(view.band) if view.band else None,
         "lines": list(view.lines),
         "margin": view.margin,
+        "chosen": view.body,
         "pinned": bool(baseline),
         "damped": any(row.damping for row in rows),
         "quick": answer.full is None,

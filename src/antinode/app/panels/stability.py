@@ -21,18 +21,17 @@ def stability_data(answer: Answer) -> dict[str, Any]:
     if not found.critical:
         low, high = found.range
         return said(f"No stability is lost for factors from {low:g} to {high:.4g}.")
-    heads = ["kind", "factor", "±", "Hz", "modes", "stability", "proven"]
-    meaning = "Factor on all axial forces at which stability changes; 1 is the present state."
+    heads = ["kind", "factor", "±", "Hz", "modes", "proven"]
+    meaning = "Factor on all axial forces at which stability is lost; 1 is the present state."
     return sheet(heads, map(_row, found.critical), found.warnings, meaning)
 
 
 def _row(load: CriticalLoad) -> list[str]:
     return [
-        load.kind,
+        load.kind if load.change == "lost" else f"{load.kind}, {load.change}",
         f"{load.load_factor:.6g}",
-        f"{load.error:.0e}",
+        f"{load.error:.0e}".replace("e-0", "e-"),
         f"{load.frequency_hz:.5g}",
         ", ".join(load.modes),
-        load.change,
         "yes" if load.proven else "no",
     ]

@@ -1,5 +1,6 @@
 // A beam with its ends and what it carries; marks are dragged along it, or moved by the arrow keys.
 import { registry } from "antinode-app";
+import { tabbed } from "./charts.js";
 import { rounded, svg } from "./theme.js";
 
 const HEIGHT = 20; // pixels of half the thickest part
@@ -115,7 +116,10 @@ export function beam(element) {
     const size = item.name.length * 5.6;
     const from = Math.max(2, Math.min(x - size / 2, element.clientWidth - size - 2));
     if (below) {
-      node.append(svg("text", { class: "an-force", x: x + 14, y: y0 + own + 24 }, item.name));
+      let row = y0 + own + 24;
+      while (rows.some((o) => Math.abs(o.y - row) < 11 && x + 14 < o.to + 4 && x + 14 + size > o.from - 26)) row += 13;
+      rows.push({ from: x + 14, to: x + 14 + size, y: row });
+      node.append(svg("text", { class: "an-force", x: x + 14, y: row }, item.name));
       return grip(node, item, x0, x1);
     }
     let row = y0 - Math.max(own, 9) - 6;
@@ -173,6 +177,7 @@ export function beam(element) {
   }
 
   return {
+    text: () => (last ? tabbed(["what", `x [${last.ticks.unit}]`], last.items.map((i) => [i.name, rounded(i.x / last.ticks.factor)])) : ""),
     show(data) {
       if (dragged && last) {
         const own = last.items.find((item) => item.path === dragged);

@@ -1,8 +1,10 @@
 // The body in three dimensions, bending in one mode; turned with the mouse.
 import { OrbitControls, THREE } from "nicegui-scene";
+import { tabbed } from "./charts.js";
 import { theme } from "./theme.js";
 
 const AROUND = 28;
+const TWIST = 0.7; // rad, at the largest
 const SWING = 0.09; // of the length, at the largest displacement
 
 export function body(element) {
@@ -80,7 +82,11 @@ export function body(element) {
     const colour = new THREE.Color();
     const { position, color } = hull.geometry.attributes;
     const n = data.x.length;
-    const lift = data.shape.map((y) => SWING * phase * y);
+    const moved = data.shape.map((y) => SWING * phase * y);
+    const none = data.shape.map(() => 0);
+    const lift = data.way === "across" ? moved : none;
+    const push = data.way === "along" ? moved : none;
+    const twist = data.way === "about" ? data.shape.map((y) => TWIST * phase * y) : none;
     let k = 0;
     for (let i = 0; i < n; i++) {
       const [p, q] = [Math.max(i - 1, 0), Math.min(i + 1, n - 1)];
@@ -88,9 +94,9 @@ export function body(element) {
       const norm = Math.hypot(1, slope);
       colour.lerpColors(quiet, strong, Math.min(1, Math.abs(data.shape[i])));
       for (let j = 0; j <= AROUND; j++, k++) {
-        const angle = (2 * Math.PI * j) / AROUND;
+        const angle = (2 * Math.PI * j) / AROUND + twist[i];
         const up = data.radius[i] * Math.cos(angle);
-        position.setXYZ(k, data.x[i] - 0.5 - (up * slope) / norm, lift[i] + up / norm, data.radius[i] * Math.sin(angle));
+        position.setXYZ(k, data.x[i] + push[i] - 0.5 - (up * slope) / norm, lift[i] + up / norm, data.radius[i] * Math.sin(angle));
         color.setXYZ(k, colour.r, colour.g, colour.b);
       }
     }
@@ -99,7 +105,8 @@ export function body(element) {
     hull.geometry.computeBoundingSphere();
     data.fins.forEach((fin, f) => {
       const i = data.x.findIndex((x) => x >= fin.x);
-      fins[f].position.y = lift[Math.max(i, 0)] ?? 0;
+      fins[f].position.set(push[Math.max(i, 0)] ?? 0, lift[Math.max(i, 0)] ?? 0, 0);
+      fins[f].rotation.x = -(twist[Math.max(i, 0)] ?? 0);
     });
     paint();
   }
@@ -160,6 +167,7 @@ export function body(element) {
       resize();
     },
     resize,
+    text: () => (data ? tabbed(["x / length", "radius / length", "shape"], data.x.map((x, k) => [x, data.radius[k], data.shape[k]])) : ""),
     png() {
       renderer.render(scene, camera);
       return renderer.domElement.toDataURL("image/png");

@@ -42,18 +42,28 @@ export function tooltip(t, format) {
   };
 }
 
-// A chart that draws all of its options from its last data: `options(data, theme)`.
+// A chart that draws all of its options from its last data: `options(data, theme)`. Where it fills
+// the page the wheel zooms, a drag moves what is zoomed, and a double click shows all again.
 export function chart(element, options, quick) {
   const instance = echarts.init(element);
   let last = null;
   let signature = "";
+  let large = false;
+  const zoom = () => {
+    const axes = { xAxisIndex: "all", yAxisIndex: [], filterMode: "none" };
+    if (large) instance.setOption({ dataZoom: [{ type: "inside", ...axes }] });
+  };
   const draw = (fresh) => {
     if (!last) return;
     const t = theme();
     const drawn = quick && !fresh ? quick(last, t) : null;
     if (drawn) instance.setOption(drawn, { lazyUpdate: false });
-    else instance.setOption({ animation: false, textStyle: { fontFamily: FONT }, ...options(last, t) }, true);
+    else {
+      instance.setOption({ animation: false, textStyle: { fontFamily: FONT }, ...options(last, t) }, true);
+      zoom();
+    }
   };
+  instance.getZr().on("dblclick", () => instance.dispatchAction({ type: "dataZoom", start: 0, end: 100 }));
   return {
     instance,
     get data() {
@@ -66,73 +76,92 @@ export function chart(element, options, quick) {
       signature = now;
     },
     draw,
+    enlarged(on) {
+      large = on;
+      draw(true);
+    },
     retheme: () => draw(true),
     resize: () => instance.resize(),
     destroy: () => instance.dispose(),
   };
 }
 
+// Small graphs above one another over the length, each with one line or several.
 export function forces(element) {
-  const names = (data) => data.curves.map((c) => `${c.name}  ${c.title}`);
+  const tall = (data) => Boolean(data.heading);
   const layout = (data) => {
-    const count = data.curves.length;
-    const room = (element.clientHeight - 50) / count;
-    return data.curves.map((_, k) => ({ left: 58, right: 12, top: 28 + k * room, height: Math.max(20, room - 28) }));
+    const [above, count] = [tall(data) ? 18 : 0, data.curves.length];
+    const room = (element.clientHeight - 50 - above) / count;
+    return data.curves.map((_, k) => ({ left: 58, right: 12, top: above + 28 + k * room, height: Math.max(14, room - 28) }));
   };
+  const lines = (data) => data.curves.flatMap((c, k) => c.lines.map((line, n) => ({ ...line, graph: k, colour: c.lines.length > 1 ? n + 1 : k + 1, filled: c.lines.length === 1, unit: c.unit, of: c.name })));
   const series = (data, t) =>
-    data.curves.map((c, k) => ({
+    lines(data).map((line) => ({
+      name: line.name || line.of,
       type: "line",
-      xAxisIndex: k,
-      yAxisIndex: k,
+      xAxisIndex: line.graph,
+      yAxisIndex: line.graph,
       symbol: "none",
-      lineStyle: { width: 1.6, color: seriesColour(t, k + 1) },
-      areaStyle: { color: seriesColour(t, k + 1), opacity: 0.13 },
-      data: c.points,
+      lineStyle: { width: 1.6, color: seriesColour(t, line.colour) },
+      itemStyle: { color: seriesColour(t, line.colour) },
+      ...(line.filled ? { areaStyle: { color: seriesColour(t, line.colour), opacity: 0.13 } } : {}),
+      data: line.points,
     }));
+  const text = (t, more) => ({ textStyle: { color: t.muted, fontSize: 11, fontWeight: 400, fontFamily: FONT, overflow: "truncate", ...more } });
+  const titles = (data, t) => {
+    const places = layout(data);
+    const width = Math.max(60, element.clientWidth - 70 - 46);
+    const found = data.curves.map((c, k) => {
+      const rich = Object.fromEntries(c.lines.map((_, n) => [`c${n}`, { color: seriesColour(t, n + 1), fontSize: 11, fontWeight: 500 }]));
+      const told = c.lines.length > 1 ? c.lines.map((line, n) => `{c${n}|${line.label}}`).join("  ") : c.title;
+      return { text: `${c.name}  ${told}`, left: 58, top: places[k].top - 20, padding: 0, ...text(t, { width, rich }) };
+    });
+    return tall(data) ? [...found, { text: data.heading, left: 8, top: 3, padding: 0, ...text(t, { color: t.text, lineHeight: 14, width: element.clientWidth - 16 }) }] : found;
+  };
+  const ends = (c) => ({ min: c.lines[0].points[0][0], max: c.lines[0].points.at(-1)[0] });
   const full = (data, t) => ({
     grid: layout(data),
-    title: names(data).map((text, k) => ({
-      text,
-      left: 58,
-      top: layout(data)[k].top - 20,
-      textStyle: { color: t.muted, fontSize: 11, fontWeight: 400, fontFamily: FONT },
-      padding: 0,
-    })),
+    title: titles(data, t),
     xAxis: data.curves.map((c, k) => {
       const lowest = k === data.curves.length - 1;
-      const ends = { min: c.points[0][0], max: c.points[c.points.length - 1][0] };
       return xAxis(t, lowest ? `x from the ${data.x.origin} [${data.x.unit}]` : "", {
-        ...ends,
+        ...ends(c),
         gridIndex: k,
         axisLabel: { ...label(t), show: lowest, formatter: rounded },
         nameGap: 22,
       });
     }),
-    yAxis: data.curves.map((c, k) =>
-      axis(t, "", {
-        gridIndex: k,
-        splitNumber: 2,
-        axisLabel: { ...label(t), formatter: rounded },
-      }),
-    ),
+    yAxis: data.curves.map((c, k) => axis(t, "", { ...(c.unit ? {} : { min: -1, max: 1, interval: 1 }), gridIndex: k, splitNumber: layout(data)[k].height < 60 ? 1 : 2, axisLabel: { ...label(t), formatter: rounded } })),
     graphic: data.curves.map((c, k) => ({
       type: "text",
       right: 12,
       top: layout(data)[k].top - 19,
-      style: { text: `[${c.unit}]`, fill: t.muted, font: `11px ${FONT}` },
+      style: { text: c.unit ? `[${c.unit}]` : "", fill: t.muted, font: `11px ${FONT}` },
     })),
     axisPointer: { link: [{ xAxisIndex: "all" }] },
     tooltip: tooltip(t, (points) => {
-      const p = points[0];
-      const c = data.curves[p.axisIndex ?? p.seriesIndex] ?? data.curves[0];
-      return `x = ${rounded(p.value[0])} ${data.x.unit}<br>${c.name} = <b>${rounded(p.value[1])}</b> ${c.unit}`;
+      const every = lines(data);
+      const rows = points.map((p) => `${p.marker} ${p.seriesName} = <b>${rounded(p.value[1])}</b> ${every[p.seriesIndex]?.unit ?? ""}`);
+      return [`x = ${rounded(points[0].value[0])} ${data.x.unit}`, ...new Set(rows)].join("<br>");
     }),
     series: series(data, t),
   });
-  const it = chart(element, full, (data, t) => ({ series: series(data, t).map((s) => ({ data: s.data })) }));
-  return { ...it, show: (d) => it.show({ ...d, signature: sign(d) }), resize: () => (it.resize(), it.draw(true)) };
+  const it = chart(element, full, (data, t) => ({ title: titles(data, t), series: series(data, t).map((s) => ({ data: s.data })) }));
+  const rows = () => lines(it.data).flatMap((l) => l.points.map(([x, y]) => [l.name || l.of, x, y, l.unit]));
+  return {
+    ...it,
+    show: (d) => (d.curves ? it.show({ ...d, signature: sign(d) }) : null),
+    resize: () => (it.resize(), it.draw(true)),
+    text: () => (it.data ? tabbed(["curve", `x [${it.data.x.unit}]`, "value", "unit"], rows()) : ""),
+  };
 }
-const sign = (d) => JSON.stringify([d.x.unit, d.curves.map((c) => [c.name, c.unit, c.points[0][0]])]);
+const sign = (d) => JSON.stringify([d.x.unit, d.curves.map((c) => [c.name, c.unit, c.lines.map((l) => l.name), c.lines[0].points[0][0], c.lines[0].points.at(-1)[0]])]);
+
+// Rows with tabs between their cells, as spreadsheets take them.
+export const tabbed = (heads, rows) => [heads, ...rows].map((row) => row.join("\t")).join("\n");
+
+// Lines over the same places side by side: one row a place.
+const wide = (heads, curves) => tabbed(heads, (curves[0] ?? []).map(([x], k) => [x, ...curves.map((points) => points[k]?.[1] ?? "")]));
 
 export function modes(element) {
   let playing = false;
@@ -142,8 +171,9 @@ export function modes(element) {
   const wave = (points, k) => {
     if (!playing) return points;
     const time = (performance.now() - start) / 1000;
-    const factor = Math.cos(2 * Math.PI * 0.5 * time * (1 + 0.22 * k));
-    return points.map(([x, y]) => [x, y * factor]);
+    const angle = 2 * Math.PI * 0.5 * time * (1 + 0.22 * k);
+    const [real, imaginary] = [Math.cos(angle), Math.sin(angle)];
+    return points.map(([x, y, behind]) => [x, y * real - (behind ?? 0) * imaginary]);
   };
   const lines = (data, t) =>
     data.curves.map((c, k) => ({
@@ -203,6 +233,7 @@ export function modes(element) {
   };
   return {
     ...it,
+    text: () => (it.data ? wide([`x [${it.data.unit}]`, ...it.data.curves.map((c) => `mode ${c.number}: ${it.data.component}`)], it.data.curves.map((c) => c.points)) : ""),
     show(data) {
       const key = [data.unit, data.component, data.curves.map((c) => c.number), data.kept.map((c) => c.number)];
       it.show({ ...data, signature: JSON.stringify(key) });
@@ -250,7 +281,11 @@ export function characteristic(element) {
     series: full(data, t).series.map((s) => ({ id: s.id, data: s.data, tooltip: s.tooltip })),
   });
   const it = chart(element, full, quick);
-  return { ...it, show: (data) => it.show({ ...data, signature: "one" }) };
+  return {
+    ...it,
+    show: (data) => it.show({ ...data, signature: "one" }),
+    text: () => (it.data ? tabbed(["frequency [Hz]", "function", "root"], [...it.data.points.map(([f, y]) => [f, y, ""]), ...it.data.roots.map((f, k) => [f, 0, k + 1 + it.data.divergent])]) : ""),
+  };
 }
 
 export function curve(element) {
@@ -300,7 +335,9 @@ export function curve(element) {
   }));
   return {
     ...it,
+    text: () => (it.data ? wide([it.data.unit ? `${it.data.label} [${it.data.unit}]` : it.data.label, ...it.data.lines.map((_, k) => `mode ${k + 1} [Hz]`)], it.data.lines) : ""),
     show(data) {
+      if (data.said) return void it.instance.setOption({ title: { text: data.said, left: 10, top: 10, textStyle: { color: theme().muted, fontSize: 12, lineHeight: 17, fontWeight: 400, fontFamily: FONT, width: element.clientWidth - 20, overflow: "break" } } }, true);
       if (data.cursor) cursor = data.cursor;
       if (data.curve) it.show({ ...data.curve, signature: JSON.stringify([data.curve.label, data.curve.unit, data.curve.low, data.curve.high, data.curve.lines.length]) });
       else if (it.data) it.instance.setOption({ series: [marks(theme())] });

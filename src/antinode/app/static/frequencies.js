@@ -1,4 +1,5 @@
 // The table of frequencies: numbers, and bars on one common scale with baseline, band and lines.
+import { registry } from "antinode-app";
 import { html } from "./theme.js";
 
 const HEADS = [
@@ -64,8 +65,13 @@ export function frequencies(element) {
 
   function line(data, r) {
     const tr = html("tr", r.flag ? "an-flagrow" : "");
-    if (r.flag) tr.title = r.flag;
-    const name = html("th", "an-mode", r.number);
+    tr.classList.toggle("an-chosen", Number(r.number) === data.chosen);
+    tr.title = [`${r.name}: show its shape, forces, energies`, r.flag].filter(Boolean).join("; ");
+    tr.addEventListener("click", () => registry.emit("chosen", Number(r.number)));
+    const name = html("th", "an-mode");
+    const choose = html("button", "an-choose", r.number);
+    choose.setAttribute("aria-label", `Show ${r.name}`);
+    name.append(choose);
     name.scope = "row";
     if (r.flag) {
       const mark = html("span", "an-mark", "▲");

@@ -5,19 +5,20 @@ import { characteristic, curve, forces, modes } from "./charts.js";
 import { frequencies, strip } from "./frequencies.js";
 import { notes } from "./notes.js";
 import { response } from "./response.js";
-import { pngOf, save, svgOf, textOf } from "./saving.js";
+import { copied, pngOf, save, svgOf, textOf } from "./saving.js";
 import { sheet } from "./sheet.js";
 import { vehicle } from "./vehicle.js";
 
 export const kinds = {
   ...{ beam, body, characteristic, curve, forces, frequencies, modes, notes, response, strip, vehicle },
-  ...{ effects: sheet, ends: sheet, stability: sheet, compare: sheet },
+  ...{ mode: forces, effects: sheet, ends: sheet, stability: sheet, compare: sheet },
 };
 
 // All pictures of the page by name; what arrives before a picture exists waits for it.
 export const registry = {
   views: {},
   waiting: {},
+  data: {}, // the last of each
   sequence: 0,
   shown: 0,
   add(name, view) {
@@ -31,6 +32,7 @@ export const registry = {
   },
   show(name, data) {
     if (name === "frequencies") this.show("strip", data);
+    this.data[name] = data;
     if (this.views[name]) this.views[name].show(data);
     else this.waiting[name] = data;
   },
@@ -41,6 +43,7 @@ export const registry = {
     const on = !panel.classList.contains("an-large");
     this.shrink();
     panel.classList.toggle("an-large", on);
+    for (const one of on ? panel.querySelectorAll(".an-picture") : []) this.views[one.dataset.name]?.enlarged?.(true);
     const shown = on && this.near(button);
     if (!shown) return;
     const drawn = Boolean(this.views[shown.dataset.name]?.instance || shown.querySelector("svg"));
@@ -48,11 +51,18 @@ export const registry = {
     panel.classList.toggle("an-apng", drawn || Boolean(this.views[shown.dataset.name]?.png));
   },
   shrink() {
-    for (const panel of document.querySelectorAll(".an-large")) panel.classList.remove("an-large");
+    for (const panel of document.querySelectorAll(".an-large")) {
+      panel.classList.remove("an-large");
+      for (const one of panel.querySelectorAll(".an-picture")) this.views[one.dataset.name]?.enlarged?.(false);
+    }
   },
   // Tables go to the clipboard with tabs, as spreadsheets take them.
-  copy(name) {
-    navigator.clipboard?.writeText(this.views[name] ? textOf(this.views[name]) : "");
+  async copy(name) {
+    const text = this.views[name] ? textOf(this.views[name]) : "";
+    this.emit("told", text && (await copied(text)) ? "Copied: paste it into a spreadsheet." : "There is nothing to copy yet.");
+  },
+  async copyLink() {
+    this.emit("told", (await copied(location.href)) ? "The link is copied; it brings this view back." : "The browser refuses: copy its address by hand.");
   },
   near(button) {
     return [...button.closest(".an-card").querySelectorAll(".an-picture")].find((e) => e.offsetParent || e.clientWidth);

@@ -20,9 +20,15 @@ export function response(element) {
     },
     { id: "kept", name: "snapshot", type: "line", symbol: "none", lineStyle: { color: t.muted, width: 1.2, type: "dotted" }, tooltip: { show: false }, data: data.kept ?? [] },
   ];
+  // What acts and what is seen, in one line where there is room for it, else in two.
+  const words = (data) => {
+    const [acts, seen] = data.title.split(": ");
+    const line = `${acts}: ${seen} [${data.unit}]`;
+    return 5.6 * line.length < plot.clientWidth - 56 ? [line] : [`${acts}:`, `${seen} [${data.unit}]`];
+  };
   const full = (data, t) => ({
-    title: { text: `${data.title} [${data.unit}]`, left: 46, top: 2, padding: 0, textStyle: { color: t.muted, fontSize: 11, lineHeight: 14, fontWeight: 400, fontFamily: FONT, width: Math.max(80, plot.clientWidth - 52), overflow: "truncate" } },
-    grid: { left: 46, right: 14, top: 26, bottom: 34 },
+    title: { text: words(data).join("\n"), left: 46, top: 2, padding: 0, textStyle: { color: t.muted, fontSize: 11, lineHeight: 13, fontWeight: 400, fontFamily: FONT } },
+    grid: { left: 46, right: 14, top: 13 * words(data).length + 13, bottom: 34 },
     xAxis: xAxis(t, "frequency [Hz]", log(t, { min: data.low, max: data.high, nameGap: 20 })),
     yAxis: axis(t, "", log(t, {})),
     tooltip: tooltip(t, (points) => {
@@ -32,7 +38,7 @@ export function response(element) {
     series: lines(data, t),
   });
   const it = chart(plot, full, (data, t) => ({ series: lines(data, t).map((s) => ({ id: s.id, data: s.data })) }));
-  const cells = (data) => data.peaks.map((p) => [`${p.hz}`, `${p.size}`, p.error, p.mode]);
+  const cells = (data) => data.peaks.map((p) => [`${p.hz}`, p.size >= 1e-3 && p.size < 1e6 ? `${p.size}` : p.size.toExponential(4).replace("e+", "e"), p.error, p.mode]);
 
   function tell(data) {
     const parts = data.notes.map((note) => html("p", "an-hint", note));
@@ -62,6 +68,7 @@ export function response(element) {
 
   return {
     instance: it.instance,
+    enlarged: (on) => it.enlarged(on),
     text: () => (last?.points ? [heads(last), ...cells(last), ...last.notes.map((n) => [n])].map((row) => row.join("\t")).join("\n") : ""),
     show(data) {
       last = data;

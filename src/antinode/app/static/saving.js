@@ -57,12 +57,23 @@ export async function pngOf(view, element) {
   return text ? painted(text, element.clientWidth, element.clientHeight) : "";
 }
 
-// Numbers with tabs, as spreadsheets take them: what the picture tells, or the points of its lines.
-export function textOf(view) {
-  if (view.text) return view.text();
-  const series = view.instance?.getOption()?.series ?? [];
-  const rows = series.flatMap((s) => (s.data ?? []).map((point) => [s.name ?? s.id ?? "", ...[point].flat()].join("\t")));
-  return rows.join("\n");
+// Numbers with tabs, as spreadsheets take them.
+export const textOf = (view) => view.text?.() ?? "";
+
+// Text to the clipboard; where the page came over plain http from afar, by a selection.
+export async function copied(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    const field = document.createElement("textarea");
+    field.value = text;
+    document.body.append(field);
+    field.select();
+    const done = document.execCommand("copy");
+    field.remove();
+    return done;
+  }
 }
 
 export function save(name, address) {

@@ -1,4 +1,5 @@
 // The vehicle to scale in its cavity; forces as arrows whose length goes with the force.
+import { tabbed } from "./charts.js";
 import { rounded, svg } from "./theme.js";
 
 const LONGEST = 78; // pixels of the largest arrow along the axis
@@ -8,6 +9,7 @@ export function vehicle(element) {
   const root = svg("svg", { class: "an-svg", "aria-hidden": "true" });
   element.append(root);
   let last = null;
+  let longest = LONGEST;
 
   function draw() {
     if (!last) return;
@@ -15,8 +17,10 @@ export function vehicle(element) {
     const height = element.clientHeight;
     if (width < 50 || height < 50) return;
     const d = last;
-    const left = LONGEST + 58;
-    const right = LONGEST + 30;
+    const narrow = width < 520; // labels then stand above the body, not beside it
+    longest = narrow ? 0.1 * width : LONGEST;
+    const left = narrow ? longest + 12 : longest + 58;
+    const right = narrow ? longest + 12 : longest + 30;
     const tallest = Math.max(...d.cavity.top, ...d.cavity.bottom.map((v) => -v), ...d.fins.map((f) => Math.max(Math.abs(f[2]), Math.abs(f[3]))), ...d.body.map((p) => p[1]));
     const room = height / 2 - 16 - 14;
     const scale = Math.min((width - left - right) / d.length, room / tallest);
@@ -64,19 +68,20 @@ export function vehicle(element) {
       taken.push({ from: inside, to: inside + size, y: row });
       parts.push(svg("text", { class: "an-force", x: inside, y: row }, text));
     };
+    const beside = width < 520 ? Y(Math.max(...d.body.map((p) => p[1]))) - 12 : Y(0) - 8;
     const arrow = (x1, y1, x2, y2) => parts.push(svg("line", { class: "an-arrow", x1, y1, x2, y2, "marker-end": "url(#an-tip)" }));
     for (const a of d.arrows) {
       if (a.along) {
-        const length = Math.max(9, Math.abs(a.size) * LONGEST);
+        const length = Math.max(9, Math.abs(a.size) * longest);
         const aft = a.size > 0;
         if (a.x <= 0.02 * d.length) {
           arrow(X(0) - 4 - length, Y(0), X(0) - 4, Y(0));
-          place(X(0) - 8, Y(0) - 8, a.text, "end");
+          place(X(0) - 8, beside, a.text, "end");
         } else if (a.x >= 0.98 * d.length) {
           const nozzle = X(d.length) + 4;
           if (aft) arrow(nozzle, Y(0), nozzle + length, Y(0));
           else arrow(nozzle + length, Y(0), nozzle, Y(0));
-          place(width - 4, Y(0) - 8, a.text, "end");
+          place(width - 4, beside, a.text, "end");
         } else {
           const y = height - 34;
           arrow(X(a.x), y, X(a.x) + (aft ? length : -length), y);
@@ -114,6 +119,7 @@ export function vehicle(element) {
   }
 
   return {
+    text: () => (last ? tabbed(["force", "value", "x / length"], last.arrows.map((a) => [...a.text.match(/^(.*?) ([-\d.].*)$/).slice(1), rounded(a.x / last.length)])) : ""),
     show(data) {
       last = data;
       draw();
