@@ -39,7 +39,7 @@ from .backends import Backend, BackendName, choose
 from .brackets import ROUNDING, cancelling, share_brackets
 from .following import eigenvalues_alone, two_sided_energies
 from .guesses import guess_omega2
-from .hertz import error_hz, hertz, settled
+from .hertz import error_hz, growth_rate, hertz, settled
 from .rigid import rigid_modes_of, translates, zeros_of
 from .rotation import elastic
 
@@ -59,6 +59,8 @@ REASONS = (
 NARROW = 1e-10
 """Relative width of brackets in omega^2."""
 _BEFORE_ROUNDING = 0.98  # share of a bracket
+Growing = dict[int, Array]
+"""Re s of the modes of some beams, by their row; 0 where it does not come of a pair."""
 _ALONE = NOT_BRACKETED, CLUSTERED, BY_ITSELF
 
 
@@ -241,6 +243,8 @@ class BatchResult(ByValue):
         before the one that grows.
     evaluations : array of int, shape (beams,)
         How often the chain was evaluated.
+    growth_rate_per_s : array, shape (beams, modes)
+        Re s [1/s] of divergent modes and of pairs that flutter; NaN of all others.
     """
 
     omega2: Array
@@ -249,6 +253,7 @@ class BatchResult(ByValue):
     error_omega2: Array
     reason: Integers
     evaluations: Integers
+    growth_rate_per_s: Array
 
     @property
     def frequencies_hz(self) -> Array:
@@ -292,8 +297,9 @@ def solve_many(
     width = _BEFORE_ROUNDING * within("width", width, 1e-10, 1e-6, " (relative, of brackets)")
     found = _solve(solver, batch, width)
     omega2, low, high, counts, rounding, reason, evaluations = found
+    pairs: Growing = {}
     if reason.any() or not (omega2[:, 0].min() >= 0.0 and np.isfinite(high).all()):
-        _settle(solver, batch, width, found)
+        pairs = _settle(solver, batch, width, found)
     bracket = np.empty((*omega2.shape, 2))
     low = np.subtract(low, rounding, out=bracket[..., 0])
     high = np.add(high, rounding, out=bracket[..., 1])
@@ -302,11 +308,18 @@ def solve_many(
             share_brackets(low[row], high[row], counts[row])
     omega2, error = settled(omega2, np.maximum(high - omega2, omega2 - low))
     reason[(reason == PAST_BUCKLING) & (omega2[:, 0] >= 0)] = 0
-    return BatchResult(omega2, bracket, counts, error, reason, evaluations)
+    growth = growth_rate(omega2)
+    for beam, rates in pairs.items():
+        growth[beam] = np.where(rates == 0.0, growth[beam], rates)
+    return BatchResult(omega2, bracket, counts, error, reason, evaluations, growth)
 
 
-def _settle(solver: Backend, batch: BeamBatch, width: float, found: ChainRoots) -> None:
-    """Solve again, by itself, what failed and may not; set the reasons, NaN where one stays."""
+def _settle(solver: Backend, batch: BeamBatch, width: float, found: ChainRoots) -> Growing:
+    """Solve again, by itself, what failed and may not; set the reasons, NaN where one stays.
+
+    Returns how fast modes grow where they flutter.
+    """
+    pairs: Growing = {}
     omega2, low, high, counts, _, reason, _ = found
     if translates(
         batch.ends, batch.family
@@ -314,10 +327,11 @@ def _settle(solver: Backend, batch: BeamBatch, width: float, found: ChainRoots) 
         reason[(reason == 0) & (omega2[:, 0] < 0)] = NOT_BRACKETED
     reason[(reason == 0) & ~np.isfinite(high).all(axis=1)] = NOT_FINITE
     for row in np.flatnonzero(np.isin(reason, _ALONE)):
-        reason[row] = _alone(solver, batch, int(row), width, found)
+        reason[row] = _alone(solver, batch, int(row), width, found, pairs)
     failed = (reason != 0) & (reason != FLUTTERS)
     omega2[failed], low[failed], high[failed], counts[failed] = np.nan, np.nan, np.nan, -1
     reason[(omega2[:, 0] < 0) & (reason != FLUTTERS)] = PAST_BUCKLING
+    return pairs
 
 
 def _solve(solver: Backend, batch: BeamBatch, width: float) -> ChainRoots:
@@ -405,7 +419,12 @@ def _exact(batch: BeamBatch, chains: Chains, forces: Array) -> Array:
 
 
 def _alone(
-    solver: Backend, batch: BeamBatch, row: int, width: float, results: ChainRoots
+    solver: Backend,
+    batch: BeamBatch,
+    row: int,
+    width: float,
+    results: ChainRoots,
+    pairs: Growing,
 ) -> int:
     """Solve a beam by itself; return the reason if it cannot be solved.
 
@@ -430,7 +449,10 @@ def _alone(
     results.omega2[row] = [v.order for v in wanted]
     results.low[row], results.high[row] = np.transpose([v.bracket for v in wanted]) + moved
     results.counts[row], results.rounding[row] = [v.counts for v in wanted], rounding
-    return FLUTTERS if moved.any() else 0
+    if not moved.any():
+        return 0
+    pairs[row] = np.array([-v.imaginary / (2 * np.sqrt(abs(v.order))) for v in wanted])
+    return FLUTTERS
 
 
 def _is_valid(chain: Chain) -> bool:

@@ -18,7 +18,7 @@ from antinode.beam.families import BENDING, FAMILIES
 from antinode.modes.backends import choose
 from antinode.modes.batch import NARROW, BeamBatch, solve_many
 from antinode.modes.following import eigenvalues_alone
-from antinode.modes.hertz import settled
+from antinode.modes.hertz import growth_rate, settled
 from antinode.modes.rigid import rigid_modes_of, zeros_of
 from antinode.modes.rotation import elastic
 from antinode.riccati.chain import Chain
@@ -63,6 +63,8 @@ class Eigenvalues:
     effect_of_shear : array, shape (cases, modes)
         What shear and rotary inertia do to each frequency, solved, relative; NaN where they are not
         solved, or where a mode of either theory has no frequency.
+    growth_rate_per_s : array, shape (cases, modes)
+        Re s of modes that diverge or flutter [1/s]; NaN of all others.
     """
 
     omega2: Array
@@ -72,15 +74,18 @@ class Eigenvalues:
     net_force: Array
     lowest_diverges: npt.NDArray[np.bool_]
     effect_of_shear: Array
+    growth_rate_per_s: Array
 
 
 def nothing_solved(study: Study, reason: Integers, points: int) -> Eigenvalues:
     """Return eigenvalues that are all unknown yet."""
     shape = len(reason), study.solve.modes
-    omega2, error, effect = np.full((3, *shape), np.nan)
+    omega2, error, effect, growth = np.full((4, *shape), np.nan)
     shapes = np.full((*shape, points), np.nan)
     none = np.zeros(len(reason))
-    return Eigenvalues(omega2, error, reason.copy(), shapes, none, none.astype(bool), effect)
+    return Eigenvalues(
+        omega2, error, reason.copy(), shapes, none, none.astype(bool), effect, growth
+    )
 
 
 def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
@@ -96,17 +101,20 @@ def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
     x = np.linspace(0, study.vehicle_case.vehicle.length, points)
     for chains in beams.chains(rows, refinement):
         at = chains.rows
-        omega2, error, out.reason[at] = solve_free(chains, study.solve.modes, _width(study))
+        found = solve_free(chains, study.solve.modes, _width(study))
+        omega2, error, out.reason[at], growth = found
         out.net_force[at] = net_force(chains)
         out.lowest_diverges[at] = lowest_diverges(chains, omega2, out.net_force[at])
         error = error + np.abs(omega2) * share * weight[at, None]
         out.omega2[at], out.error[at] = settled(omega2, error)
+        out.growth_rate_per_s[at] = np.where(out.omega2[at] == 0, np.nan, growth)
         out.reason[at[(out.reason[at] == PAST_BUCKLING) & (out.omega2[at, 0] >= 0)]] = 0
         if chains.more and "effect_of_shear" in study.outputs:
             rigid, *_ = solve_free(chains.rigid, study.solve.modes, _FOR_EFFECT)
             out.effect_of_shear[at] = effect_of_shear(omega2, rigid)
         if points:
-            out.shapes[at] = _shapes(chains, omega2, out.reason[at], x)
+            real = np.where(omega2 > 0, omega2 - np.nan_to_num(growth) ** 2, omega2)
+            out.shapes[at] = _shapes(chains, real, out.reason[at], x)
     return out
 
 
@@ -180,20 +188,25 @@ def _omega2(groups: list[Chains], modes: int, width: float) -> Array:
 
 def solve_free(
     chains: Chains, modes: int, width: float = NARROW
-) -> tuple[Array, Array, Integers]:
-    """Return omega^2, its error and the reason for every chain; by frames where lanes fail."""
+) -> tuple[Array, Array, Integers, Array]:
+    """Return omega^2, its error, the reason and growth for every chain; by frames where lanes fail.
+
+    Of a pair that flutters omega^2 is the square of its frequency.
+    """
     tables = chains.length, chains.mass, chains.stiffness, chains.axial_force
     more: dict[str, Any] = sheared_columns(chains.more)
     batch = BeamBatch(*tables, modes=modes, following=chains.following, **more)
     result = solve_many(batch, width=width)
     omega2, error, reason = result.omega2, result.error_omega2, result.reason
+    growth = result.growth_rate_per_s
     buckled = ~(omega2[:, 0] > _NEAR_BUCKLING * omega2[:, -1])
     for i in np.flatnonzero(failed(reason) | buckled).tolist():
         found = _by_frames(chain_of(chains, i), modes)
         if found is not None:
             omega2[i], error[i] = found
             reason[i] = PAST_BUCKLING if omega2[i, 0] < 0 else 0
-    return omega2, error, reason
+            growth[i] = growth_rate(omega2[i])
+    return omega2, error, reason, growth
 
 
 def net_force(chains: Chains) -> Array:

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from antinode.arrays import Array, Integers
 from antinode.beam.file import BeamFile
-from antinode.modes.hertz import error_hz, growth_rate, hertz
+from antinode.modes.hertz import error_hz, hertz
 from antinode.study.design.file import MARGIN_OUTPUTS, Study
 from antinode.study.design.points import Points
 from antinode.vehicle.refusals import OUT_OF_RANGE
@@ -83,7 +83,7 @@ def _of_vehicles(cases: Cases, size: int) -> _Solved:
     bits = warned(found, shear, doubts)
     loaded = found.reason < OUT_OF_RANGE
     scalars = {name: np.where(loaded, values, np.nan) for name, values in beams.scalars.items()}
-    every = scalars | _of_modes(found.omega2, found.error)
+    every = scalars | _of_modes(found)
     every |= {"model_error": shear, "effect_of_shear": found.effect_of_shear}
     return found.reason, bits, found.shapes, every
 
@@ -105,25 +105,25 @@ def _every_family(cases: Cases, beams: CaseBeams, points: int) -> tuple[Eigenval
         else:
             families.append(solve_bodies(cases, beams, points, family))
     reason = np.max([f.reason for f in families], axis=0)
-    omega2, error, shapes, effect = (
+    omega2, error, shapes, effect, growth = (
         np.concatenate([getattr(f, name) for f in families], axis=1)
-        for name in ("omega2", "error", "shapes", "effect_of_shear")
+        for name in ("omega2", "error", "shapes", "effect_of_shear", "growth_rate_per_s")
     )
     names = cases.study.solve.families
     shear = [model_errors(cases, beams, *each) for each in zip(names, families, strict=True)]
     bad = failed(reason)
-    omega2[bad], error[bad], effect[bad] = np.nan, np.nan, np.nan
+    omega2[bad], error[bad], effect[bad], growth[bad] = np.nan, np.nan, np.nan, np.nan
     force = np.sum([f.net_force for f in families], axis=0)
     lowest = np.any([f.lowest_diverges for f in families], axis=0)
-    found = Eigenvalues(omega2, error, reason, shapes, force, lowest, effect)
+    found = Eigenvalues(omega2, error, reason, shapes, force, lowest, effect, growth)
     return found, np.where(bad[:, None], np.nan, np.concatenate(shear, axis=1))
 
 
-def _of_modes(omega2: Array, error: Array) -> dict[str, Array]:
+def _of_modes(found: Eigenvalues) -> dict[str, Array]:
     """Return the outputs that have one number a mode."""
     return {
-        "omega2": omega2,
-        "frequency_hz": hertz(omega2),
-        "error_hz": error_hz(omega2, error),
-        "growth_rate_per_s": growth_rate(omega2),
+        "omega2": found.omega2,
+        "frequency_hz": hertz(found.omega2),
+        "error_hz": error_hz(found.omega2, found.error),
+        "growth_rate_per_s": found.growth_rate_per_s,
     }

@@ -247,6 +247,31 @@ def test_a_history_is_tracked_over_time(folder):
     assert result.tracked_frequency_hz[0].values == pytest.approx(hz, rel=1e-6)
 
 
+def test_modes_keep_their_numbers_up_to_flutter_and_past_it(case):
+    """The end forces follow: bending 1 and 2 meet, then decay and grow as they do solved alone."""
+    follows = case.model_copy(
+        update={"model": case.model.model_copy(update={"end_force": "follows_body"})}
+    )
+    text = (
+        'inputs = [{ key = "thrust", low = 1e4, high = 1.6e6, number = 6 }]\n'
+        'outputs = ["frequency_hz", "growth_rate_per_s"]\nsolve.modes = 3\n'
+    )
+    result = sweep(study(follows, text))
+    assert np.all(result.tracked_mode.values == np.arange(3))
+    grow = np.asarray(result.growth_rate_per_s)
+    flutters = np.flatnonzero(grow[:, 1] > 0)
+    assert 0 < len(flutters) < 6
+    assert np.all(grow[flutters, 0] == -grow[flutters, 1])
+    assert np.all(np.isnan(np.delete(grow, flutters, axis=0)))
+    assert np.all(np.isnan(grow[:, 2]))
+    condition = follows.condition.model_copy(update={"thrust": 1.6e6})
+    last = follows.model_copy(update={"condition": condition})
+    alone = [m for m in an.solve_modes(last, 3, families=["bending"]).modes if m.number]
+    hz = np.asarray(result.tracked_frequency_hz)
+    assert hz[-1] == pytest.approx([m.frequency_hz for m in alone], rel=1e-6)
+    assert grow[-1, :2] == pytest.approx([m.growth_rate_per_s for m in alone[:2]], rel=1e-5)
+
+
 def test_doubtful_tracks_are_marked_counted_and_drawn(case):
     import matplotlib
 
