@@ -159,7 +159,7 @@ def test_states_in_forty_digits(seed, backend):
     nodes = np.arange(len(chain.length) + 1)
     omega = [0.7, 9.0, 60.0]
     lanes = lanes_of(omega)
-    found = backend.forced_states(chain, columns, lanes, loads, nodes)
+    found = backend.driven(chain, columns, loads, nodes).states(lanes)
     for lane in range(len(omega)):
         for case in range(loads.cases):
             told = exact(chain, columns, lanes.omega2[lane], lanes.dashpot[lane], loads, case)
@@ -178,8 +178,8 @@ def test_both_backends_from_slow_to_fast(seed):
     chain, columns, loads = drawn(seed)
     nodes = np.array([0, 1, len(chain.length)])
     lanes = lanes_of(np.geomspace(1e-2, 3e3, 19))
-    fast = calls.forced_states(chain, columns, lanes, loads, nodes)
-    slow = readable.forced_states(chain, columns, lanes, loads, nodes)
+    fast = calls.driven(chain, columns, loads, nodes).states(lanes)
+    slow = readable.driven(chain, columns, loads, nodes).states(lanes)
     for one, other in zip(fast, slow, strict=True):
         size = np.max(np.abs(other), axis=(0, 3), keepdims=True)
         assert np.max(np.abs(one - other) / size) < 1e-9
@@ -189,8 +189,8 @@ def test_twice_the_same_is_the_same_to_the_last_bit():
     chain, columns, loads = drawn(3)
     lanes = lanes_of(np.linspace(1, 30, 16))
     nodes = np.array([0, 2])
-    whole = calls.forced_states(chain, columns, lanes, loads, nodes)
-    again = calls.forced_states(chain, columns, lanes, loads, nodes)
+    whole = calls.driven(chain, columns, loads, nodes).states(lanes)
+    again = calls.driven(chain, columns, loads, nodes).states(lanes)
     np.testing.assert_array_equal(whole.left, again.left)
     np.testing.assert_array_equal(whole.right, again.right)
 
@@ -207,7 +207,7 @@ def test_bars_are_left_to_the_readable_form(monkeypatch):
         return own(*arguments)
 
     monkeypatch.setattr(forced, "forced_states", readable_form)
-    left, _ = calls.forced_states(chain, columns, lanes_of([0.3]), loads, np.array([2]))
+    left, _ = calls.driven(chain, columns, loads, np.array([2])).states(lanes_of([0.3]))
     omega = np.sqrt(0.3 * (0.3 - 0.1j))
     np.testing.assert_allclose(left[0, 0, 0, 0], np.tan(2 * omega) / omega, rtol=1e-12)
     assert asked

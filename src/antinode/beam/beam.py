@@ -37,7 +37,7 @@ from .attachments import (
     on_beam,
     springs_hold,
 )
-from .checks import LOGARITHMIC, TABLES, ShearForm, Theory, check, given
+from .checks import LOGARITHMIC, TABLES, ShearForm, Theory, check, varying
 from .ends import FREE, Ends, lateral_freedoms
 from .families import BENDING, FAMILIES, FamilyName, tells
 from .loads.turning import with_their_force
@@ -403,17 +403,13 @@ class Beam(BeamMethods, ByValue):
 
     def varies(self, family: FamilyName) -> npt.NDArray[np.bool_]:
         """Tell for each interval whether anything that the family sees varies inside it."""
-        law = FAMILIES[family].law
-        accelerates = law.has_axial_force and self.axial_acceleration != 0.0
-        varying = np.full(len(self.x) - 1, accelerates)
-        for column in law.columns:
-            table = given(self, family, column)
-            varying |= np.any(table[:, 1:] != table[:, :1], axis=1)
-        lossy = () if self.loss_factor is None else ("loss_factor",)
-        for name in (*FAMILIES[family].used(self), *lossy):
-            table = getattr(self, name)
-            varying |= np.any(table[:, 1:] != table[:, :1], axis=1)
-        return varying
+        if family not in self._known_varying:
+            self._known_varying[family] = varying(self, family)
+        return self._known_varying[family]
+
+    @cached_property
+    def _known_varying(self) -> dict[FamilyName, npt.NDArray[np.bool_]]:
+        return {}
 
     def chain(self, family: FamilyName, refinement: int = 1) -> Chain:
         """Represent the beam by uniform segments for one family of modes.

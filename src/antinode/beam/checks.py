@@ -203,6 +203,19 @@ LOGARITHMIC = (
 """Those that vary exponentially where the interpolation is "log"; the others vary linearly."""
 
 
+def varying(beam: Beam, name: FamilyName) -> npt.NDArray[np.bool_]:
+    """Tell for each interval of a beam whether anything that a family sees varies inside it."""
+    family = FAMILIES[name]
+    accelerates = family.law.has_axial_force and beam.axial_acceleration != 0.0
+    found = np.full(len(beam.x) - 1, accelerates)
+    lossy = () if beam.loss_factor is None else (beam.loss_factor,)
+    columns = (given(beam, name, column) for column in family.law.columns)
+    for table in (*columns, *(getattr(beam, more) for more in family.used(beam)), *lossy):
+        found |= np.any(table[:, 1:] != table[:, :1], axis=1)
+    found.flags.writeable = False
+    return found
+
+
 def given(beam: Beam, name: FamilyName, column: str) -> Array:
     """Return the beam's table for a column of a family's law, or say that it is missing."""
     family = FAMILIES[name]

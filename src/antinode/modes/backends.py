@@ -27,6 +27,14 @@ AUTO: BackendName = "numba"
 _SMALL = 10_000  # segments times modes that numpy solves in some tenths of a second
 
 
+class DrivenChain(Protocol):
+    """A chain with what drives it, ready to be asked at any frequencies."""
+
+    def states(self, lanes: Lanes, /) -> Sides:
+        """Return the states on either side of the wanted nodes."""
+        ...
+
+
 class Backend(Protocol):
     """What solves chains and beams: a module, `riccati.readable` or `riccati.lanes.calls`."""
 
@@ -88,10 +96,10 @@ class Backend(Protocol):
         """Return modal mass and stiffness of modes."""
         ...
 
-    def forced_states(
-        self, chain: Chain, columns: Columns, lanes: Lanes, loads: Loads, wanted: Integers, /
-    ) -> Sides:
-        """Return the states of a driven chain on either side of some nodes."""
+    def driven(
+        self, chain: Chain, columns: Columns, loads: Loads, wanted: Integers, /
+    ) -> DrivenChain:
+        """Return a chain with what drives it, to be asked for states at some nodes."""
         ...
 
 

@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from antinode.arrays import Array, Numbers
+from antinode.beam.attachments import on_beam
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.beam.representation import make_chain
@@ -58,13 +59,15 @@ class Forced:
         refinement: int = 1,
         backend: BackendName = "auto",
     ) -> None:
-        self.backend = choose(backend)
         self.chain, self.damping = beam.chain(family, refinement), damping
         self.drives, self.outputs, self.origin = drives, outputs, float(beam.x[0])
         self._nodes: dict[float, int] = {}
         self.columns = make_chain(beam, family, refinement, damping.loss_factor).columns
-        self.places = np.unique([self.node(o.x) for o in outputs])
+        nodes = [self.node(output.x) for output in outputs]
+        self.places = np.unique(nodes)
+        self._found = list(zip(nodes, np.searchsorted(self.places, nodes).tolist(), strict=True))
         self.loads = self._loads(family)
+        self.driven = choose(backend).driven(self.chain, self.columns, self.loads, self.places)
 
     def node(self, x: float) -> int:
         """Return the node at a station [m]."""
@@ -92,22 +95,24 @@ class Forced:
     def at(self, omega: Array) -> Numbers:
         """Return outputs over drives, (outputs, drives, k), at frequencies above 0 [rad/s]."""
         lanes, softer = self.damping.lanes(omega)
-        H = self.on(lanes, lambda z: self._proportioned(z, omega, softer))
+        damped = self.damping.rayleigh is not None
+        H = self.on(lanes, (lambda z: self._proportioned(z, omega, softer)) if damped else None)
         for row, output in enumerate(self.outputs):
-            H[row] *= (1j * omega) ** output.rate
+            if output.rate:
+                H[row] *= (1j * omega) ** output.rate
         for case, drive in enumerate(self.drives):
-            if isinstance(drive, Base):
+            if isinstance(drive, Base) and drive.rate:
                 H[:, case] /= (1j * omega) ** drive.rate
         return H
 
     def on(self, lanes: Lanes, damped: Callable[[Numbers], Numbers] | None = None) -> Numbers:
         """Return components of states, not their rates, over forces and displacements."""
-        sides = self.backend.forced_states(self.chain, self.columns, lanes, self.loads, self.places)
+        sides = self.driven.states(lanes)
         if damped is not None:
             sides = Sides(*map(damped, sides))
         H = np.empty((len(self.outputs), len(self.drives), len(lanes.omega2)), dtype=complex)
-        for row, output in enumerate(self.outputs):
-            H[row] = self._output(output, sides, lanes).T
+        for row, (output, found) in enumerate(zip(self.outputs, self._found, strict=True)):
+            H[row] = self._output(output, *found, sides, lanes).T
         return H
 
     def _proportioned(self, z: Numbers, omega: Array, softer: Numbers) -> Numbers:
@@ -116,8 +121,7 @@ class Forced:
         Damping by mass acts on motion relative to the ground, as that of modes does.
         """
         rayleigh, d = self.damping.rayleigh, self.chain.law.size // 2
-        if rayleigh is None:
-            return z
+        assert rayleigh is not None
         z = z.copy()
         moving = np.array([isinstance(drive, Base) for drive in self.drives])
         ground, drag = self.loads.ground, 1 / (1 - 1j * rayleigh.alpha / omega)
@@ -127,17 +131,16 @@ class Forced:
         z[:, :, 0] += ground
         return z
 
-    def _output(self, output: Output, sides: Sides, lanes: Lanes) -> Numbers:
-        """Return an output of every case, shape (k, cases)."""
-        node = self.node(output.x)
-        place = int(np.searchsorted(self.places, node))
-        if output.component < 0:
-            return self._reaction(-1 - output.component, node, place, sides, lanes)
+    def _output(self, output: Output, node: int, place: int, sides: Sides, lanes: Lanes) -> Numbers:
+        """Return an output of every case at a node, which is a place of `sides`, (k, cases)."""
+        component = output.component
+        if component < 0:
+            return self._reaction(-1 - component, node, place, sides, lanes)
         left = node == len(self.chain.length) or (output.side == "left" and node > 0)
-        z = (sides.left if left else sides.right)[place][:, output.component]
+        z = (sides.left if left else sides.right)[place, :, component]
         if output.relative and output.moves:
             z = z - self.loads.ground
-        return np.asarray(z)
+        return z
 
     def _reaction(self, freedom: int, node: int, place: int, sides: Sides, lanes: Lanes) -> Numbers:
         """Return what the ground does to the beam along a displacement of a node, (k, cases)."""
@@ -278,6 +281,6 @@ def _judged(levels: list[Numbers], layer: float) -> tuple[Numbers, Array]:
 
 def with_stations(beam: Beam, places: list[float]) -> Beam:
     """Return a beam with breakpoints at stations [m]."""
-    from antinode.beam.attachments import on_beam
-
-    return beam.with_breakpoints([on_beam(x, beam.x) for x in places])
+    known = set(beam.x.tolist())
+    new = [on_beam(x, beam.x) for x in places if x not in known]
+    return beam.with_breakpoints(new) if new else beam

@@ -33,7 +33,6 @@ from .quantities import Base, Drive, Force, Output, check_places, stations_of
 ROUNDING = 5e-14
 """Relative change of a frequency that moves a response at least as far as rounding does."""
 _STEP = 1e-7  # relative step by which that change is measured
-_SAMPLES = 24  # frequencies at which it is measured: where the response is large or steep
 _PER_REFINEMENT = 8  # modes that the coarsest steps are meant for
 
 
@@ -116,7 +115,9 @@ class Model:
         self._at: Callable[[Array], Numbers] | None = None
 
     def first(self, family: FamilyName) -> int:
-        """Return the refinement to start from."""
+        """Return the refinement to start from: of no weight where nothing varies."""
+        if not np.any(self.beam.varies(family)):
+            return 1
         return max(
             1, modes_below(self.beam, family, self.highest_hz, self.backend) // _PER_REFINEMENT
         )
@@ -209,16 +210,15 @@ class Model:
 
 def rounding(forced: Forced, omega: Array, H: Numbers) -> Array:
     """Return how wrong rounding may make responses (outputs, drives, k): (outputs, drives)."""
-    size = np.abs(H).reshape(-1, len(omega))
-    steep = np.abs(
-        np.diff(H.reshape(-1, len(omega)), axis=-1, append=H.reshape(-1, len(omega))[:, -1:])
-    )
-    steep = np.maximum(steep, np.roll(steep, 1, axis=-1))
-    peak, steepest = (np.argpartition(v, -min(2, len(omega)), axis=-1) for v in (size, steep))
-    worst = np.unique(np.concatenate([peak[:, -2:].ravel(), steepest[:, -2:].ravel()]))
-    worst = worst[:: max(1, len(worst) // _SAMPLES)]
+    rows, last = H.reshape(-1, len(omega)), len(omega) - 1
+    size = np.abs(rows)
+    largest = np.argmax(size, axis=-1)
+    steepest = np.argmax(np.abs(np.diff(rows)), axis=-1) if last else largest
+    beside = np.concatenate([largest, largest + 1, steepest, steepest + 1])
+    worst = np.unique(np.minimum(beside, last))
     moved = np.abs(forced.at(omega[worst] * (1 + _STEP)) - H[:, :, worst]) / _STEP
-    return np.asarray(ROUNDING * (np.max(moved, axis=-1) + np.max(np.abs(H), axis=-1)))
+    most = np.max(size, axis=-1).reshape(H.shape[:2])
+    return np.asarray(ROUNDING * (np.max(moved, axis=-1) + most))
 
 
 @out_of_range_is_an_error()

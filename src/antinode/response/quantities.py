@@ -8,6 +8,7 @@ an axis or about it drives the family that moves so.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Literal, NamedTuple, get_args
 
 from antinode.arguments import choice, numbers
@@ -59,6 +60,7 @@ _KINDS: dict[str, _Kind] = {
 _MOTION = ("displacement", "velocity", "acceleration")
 
 
+@cache
 def family_of(direction: str) -> Family:
     """Return the family that a force along a direction drives."""
     return next(family for family in FAMILIES.values() if direction in family.directions)
@@ -229,30 +231,35 @@ Drive = Force | Base
 def check_places(beam: Beam, drives: tuple[Drive, ...], outputs: tuple[Output, ...]) -> None:
     """Raise InputError where something is off the beam, or of a family that it has not."""
     low, high = float(beam.x[0]), float(beam.x[-1])
+    untold = [family for family in FAMILIES if not tells(beam, family)]
     for item in (*drives, *outputs):
-        what = item.name if isinstance(item, Drive) else f"the output '{item.name}'"
-        if not tells(beam, item.family):
+        if item.family in untold:
             family = FAMILIES[item.family]
             absent = [name for name in family.tables if getattr(beam, name) is None]
             raise InputError(
-                f"{what}: the beam has no {' and no '.join(absent)}; add the column to its "
-                "stations, or ask for another direction"
+                f"{_called(item)}: the beam has no {' and no '.join(absent)}; add the column to "
+                "its stations, or ask for another direction"
             )
         if isinstance(item, Base) and not _is_held(beam, item):
             raise InputError(
-                f"{what}: nothing holds this beam along '{item.direction}', so that they move "
-                "nothing: hold it by its ends, a spring, a dashpot or a foundation, or give "
+                f"{_called(item)}: nothing holds this beam along '{item.direction}', so that they "
+                "move nothing: hold it by its ends, a spring, a dashpot or a foundation, or give "
                 "[[forces]]"
             )
         places = [item.x] if isinstance(item, Output) else _places(item)
         for x in places:
             if not low - 1e-9 * (high - low) <= x <= high + 1e-9 * (high - low):
                 raise InputError(
-                    f"{what}: {x:.10g} m is off the beam, which runs from {low:.10g} to "
+                    f"{_called(item)}: {x:.10g} m is off the beam, which runs from {low:.10g} to "
                     f"{high:.10g} m"
                 )
         if isinstance(item, Force) and item.to is not None and not item.to > item.x:
-            raise InputError(f"{what}: it must end behind its start; exchange x and to")
+            raise InputError(f"{_called(item)}: it must end behind its start; exchange x and to")
+
+
+def _called(item: Drive | Output) -> str:
+    """Return how messages call a drive or an output."""
+    return f"the output '{item.name}'" if isinstance(item, Output) else item.name
 
 
 def _is_held(beam: Beam, base: Base) -> bool:

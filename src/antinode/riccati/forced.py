@@ -131,6 +131,24 @@ def forced_states(
     return Sides(*(np.concatenate(side, axis=1) for side in zip(*parts, strict=True)))
 
 
+class DrivenChain:
+    """A chain with what drives it, ready to be asked at any frequencies.
+
+    Parameters
+    ----------
+    chain, columns, loads, wanted
+        As `forced_states` takes them.
+    """
+
+    def __init__(self, chain: Chain, columns: Columns, loads: Loads, wanted: Integers) -> None:
+        self._asked = chain, columns, loads, wanted
+
+    def states(self, lanes: Lanes) -> Sides:
+        """Return the states on either side of the wanted nodes."""
+        chain, columns, loads, wanted = self._asked
+        return forced_states(chain, columns, lanes, loads, wanted)
+
+
 class _Step(NamedTuple):
     """Between two places: ``a = back a+ + shift``, and the frame and particular state after it."""
 

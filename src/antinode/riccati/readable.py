@@ -5,17 +5,17 @@ from __future__ import annotations
 from .arrays import Array
 from .chain import Chain, evaluate
 from .chains import BeamRoots, ChainRoots, Chains, Tables
-from .forced import forced_states
+from .forced import DrivenChain
 from .reasons import BY_ITSELF
 from .roots import FollowingRoots, find_eigenvalues
 from .shapes import mode_energies, mode_states
 
 __all__ = [
     "certify_guesses",
+    "driven",
     "evaluate",
     "find_eigenvalues",
     "find_following",
-    "forced_states",
     "mode_energies",
     "mode_states",
     "name",
@@ -24,6 +24,7 @@ __all__ = [
 ]
 
 name = "numpy"
+driven = DrivenChain
 
 
 def solve_chains(chains: Chains, below: int, number: int, width: float) -> ChainRoots:

@@ -20,7 +20,7 @@ from antinode.riccati.roots import Eigenvalue, FollowingRoots, check_certificate
 from antinode.riccati.roots import find_eigenvalues as find_readable
 
 from . import single
-from .forced.states import forced_states
+from .forced.states import DrivenChain
 from .laws import FORMS
 from .library import library
 from .scratch import Need, new_table, scratch
@@ -32,10 +32,10 @@ from .workspace import Chain as Own
 
 __all__ = [
     "certify_guesses",
+    "driven",
     "evaluate",
     "find_eigenvalues",
     "find_following",
-    "forced_states",
     "mode_energies",
     "mode_states",
     "name",
@@ -44,6 +44,7 @@ __all__ = [
 ]
 
 name = "numba"
+driven = DrivenChain
 
 PARTED = 1e-7
 """Relative distance of roots below which frames part them, and their shapes."""

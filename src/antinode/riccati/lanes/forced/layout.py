@@ -97,7 +97,8 @@ class Ends(NamedTuple):
     """What the ends admit, and whether they move with the ground."""
 
     start: Array
-    """Frame at the left end, shape (groups, 2 SIZE LANES), column after column."""
+    """Frame at the left end, shape (groups, 2 SIZE LANES), column after column; one for all, or
+    one for each."""
     wanted: Array
     """Conditions at the right end, shape (groups, 2 SIZE LANES), row after row."""
     left_moves: bool

@@ -95,6 +95,23 @@ def square(value):
 
 
 @compiled
+def plus(z, a, b):
+    """Return z + a b: four multiplications that add at once, where `z + a * b` takes six steps."""
+    real, imaginary = z.real, z.imag
+    real = real + a.real * b.real
+    real = real - a.imag * b.imag
+    imaginary = imaginary + a.real * b.imag
+    imaginary = imaginary + a.imag * b.real
+    return complex(real, imaginary)
+
+
+@compiled
+def four(a, p, b, q, c, r, d, s):
+    """Return a p + b q + c r + d s."""
+    return plus(plus(plus(a * p, b, q), c, r), d, s)
+
+
+@compiled
 def get(array, place):
     """Return the complex number of a lane."""
     return complex(array[place], array[place + LANES])
@@ -184,35 +201,80 @@ def transfer(own, w):
 
 
 @compiled
+def _cubic(a, x, square, cube):
+    """Return a polynomial of four coefficients."""
+    return plus(plus(plus(a[0], a[1], x), a[2], square), a[3], cube)
+
+
+@compiled
+def _plain(lane, piece, a, b, c, d, w):
+    """Return the entries of U of one lane: polynomials of m omega^2 h^4/EI."""
+    h, n, soft, m, force, inert = piece
+    omega2, per = get(w, OMEGA2 + lane), 1.0 / h
+    x = m * omega2
+    square = x * x
+    cube = square * x
+    g, g1 = _cubic(a, x, square, cube), _cubic(b, x, square, cube)
+    g2, g3 = _cubic(c, x, square, cube), _cubic(d, x, square, cube)
+    mu, H, of = times(inert, omega2), h * w[PER_UNIT + lane], w[UNIT + lane] * per
+    flexible = times(H * H, soft)
+    return (
+        plus(g3, n, g1),
+        times(H, g2),
+        flexible * g1,
+        times(H, flexible * g),
+        times(of, x * g),
+        g3,
+        times(H, g2 * soft),
+        times(of * of, mu * g1),
+        times(of, plus(times(-force, g2), mu, g)),
+        times(of * of * of, mu * plus(g2, n, g)),
+    )
+
+
+@compiled
+def _powers(own, place):
+    """Return four complex constants of a segment."""
+    return get2(own, place), get2(own, place + 2), get2(own, place + 4), get2(own, place + 6)
+
+
+@compiled
+def _piece(own):
+    """Return the constants that `_plain` takes."""
+    n, soft, m = get2(own, TURN_0), get2(own, SOFT), get2(own, MU_1)
+    return own[LENGTH], n, soft, m, own[FORCE], own[INERT]
+
+
+@compiled
 def plain(own, powers, w):
-    """Set the entries of U where there is nothing but N: polynomials of m omega^2 h^4/EI."""
+    """Set the entries of U where there is nothing but N."""
     wide_vectors()
-    h, n, soft = own[LENGTH], get2(own, TURN_0), get2(own, SOFT)
-    m, force, inert, per = get2(own, MU_1), own[FORCE], own[INERT], 1.0 / own[LENGTH]
-    a0, a1, a2, a3 = get2(powers, 0), get2(powers, 2), get2(powers, 4), get2(powers, 6)
-    b0, b1, b2, b3 = get2(powers, 8), get2(powers, 10), get2(powers, 12), get2(powers, 14)
-    c0, c1, c2, c3 = get2(powers, 16), get2(powers, 18), get2(powers, 20), get2(powers, 22)
-    d0, d1, d2, d3 = get2(powers, 24), get2(powers, 26), get2(powers, 28), get2(powers, 30)
+    piece, a, b = _piece(own), _powers(powers, 0), _powers(powers, 8)
+    c, d = _powers(powers, 16), _powers(powers, 24)
     for lane in range(LANES):
-        omega2 = get(w, OMEGA2 + lane)
-        c = m * omega2
-        square = c * c
-        cube = square * c
-        g = a0 + a1 * c + a2 * square + a3 * cube
-        g1 = b0 + b1 * c + b2 * square + b3 * cube
-        g2 = c0 + c1 * c + c2 * square + c3 * cube
-        g3 = d0 + d1 * c + d2 * square + d3 * cube
-        mu, H, of = times(inert, omega2), h * w[PER_UNIT + lane], w[UNIT + lane] * per
-        put(w, U00 + lane, g3 + n * g1)
-        put(w, U01 + lane, times(H, g2))
-        put(w, U02 + lane, times(H * H, g1 * soft))
-        put(w, U03 + lane, times(H * H * H, g * soft))
-        put(w, U10 + lane, times(of, c * g))
-        put(w, U11 + lane, g3)
-        put(w, U12 + lane, times(H, g2 * soft))
-        put(w, U20 + lane, times(of * of, mu * g1))
-        put(w, U21 + lane, times(of, mu * g - times(force, g2)))
-        put(w, U30 + lane, times(of * of * of, mu * (g2 + n * g)))
+        u00, u01, u02, u03, u10, u11, u12, u20, u21, u30 = _plain(lane, piece, a, b, c, d, w)
+        put(w, U00 + lane, u00)
+        put(w, U01 + lane, u01)
+        put(w, U02 + lane, u02)
+        put(w, U03 + lane, u03)
+        put(w, U10 + lane, u10)
+        put(w, U11 + lane, u11)
+        put(w, U12 + lane, u12)
+        put(w, U20 + lane, u20)
+        put(w, U21 + lane, u21)
+        put(w, U30 + lane, u30)
+
+
+@compiled
+def through_plain(own, powers, w):
+    """Carry the frame through a segment where there is nothing but N, in one piece."""
+    wide_vectors()
+    piece, a, b = _piece(own), _powers(powers, 0), _powers(powers, 8)
+    c, d = _powers(powers, 16), _powers(powers, 24)
+    for lane in range(LANES):
+        U = _plain(lane, piece, a, b, c, d, w)
+        _carry(U, w, FIRST + lane)
+        _carry(U, w, SECOND + lane)
 
 
 @compiled
@@ -233,20 +295,26 @@ def driven(own, stiffness, w):
 
 
 @compiled
+def _carry(U, w, first):
+    """Carry one lane of a column of states through a segment."""
+    u00, u01, u02, u03, u10, u11, u12, u20, u21, u30 = U
+    Y, psi, M, Q = get(w, first), get(w, first + _PSI), get(w, first + _M), get(w, first + _Q)
+    put(w, first, four(u00, Y, u01, psi, u02, M, u03, Q))
+    put(w, first + _PSI, four(u10, Y, u11, psi, u12, M, u02, Q))
+    put(w, first + _M, four(u20, Y, u21, psi, u11, M, u01, Q))
+    put(w, first + _Q, four(u30, Y, u20, psi, u10, M, u00, Q))
+
+
+@compiled
 def through(w, first):
     """Carry one column of states through a segment."""
     wide_vectors()
     for lane in range(LANES):
-        Y, psi = get(w, first + _Y + lane), get(w, first + _PSI + lane)
-        M, Q = get(w, first + _M + lane), get(w, first + _Q + lane)
         u00, u01, u02 = get(w, U00 + lane), get(w, U01 + lane), get(w, U02 + lane)
         u10, u11, u20 = get(w, U10 + lane), get(w, U11 + lane), get(w, U20 + lane)
         u03, u12 = get(w, U03 + lane), get(w, U12 + lane)
         u21, u30 = get(w, U21 + lane), get(w, U30 + lane)
-        put(w, first + _Y + lane, u00 * Y + u01 * psi + u02 * M + u03 * Q)
-        put(w, first + _PSI + lane, u10 * Y + u11 * psi + u12 * M + u02 * Q)
-        put(w, first + _M + lane, u20 * Y + u21 * psi + u11 * M + u01 * Q)
-        put(w, first + _Q + lane, u30 * Y + u20 * psi + u10 * M + u00 * Q)
+        _carry((u00, u01, u02, u03, u10, u11, u12, u20, u21, u30), w, first + lane)
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""`riccati.forced.forced_states` by compiled code."""
+"""`riccati.forced.DrivenChain` by compiled code."""
 
 from __future__ import annotations
 
@@ -42,32 +42,59 @@ from .layout import (
 )
 
 _MOST_BASES = 200_000  # that one group of lanes keeps
+_AS_HIGH = 1e-3  # by which omega^2 may be above that for which segments were parted
 _FIELDS = "mass", "offset", "inertia", "spring", "rotational_spring", "coupling", "own_load"
 _MORE_FIELDS = "dashpot", "rotational_dashpot", "compliance"
 
 
-def forced_states(
-    chain: Chain, columns: Columns, lanes: Lanes, loads: Loads, wanted: Integers
-) -> Sides:
-    """Return the states of a driven chain at some of its nodes.
+class DrivenChain:
+    """A chain with what drives it, ready to be asked at any frequencies.
 
     Bars and shafts, feedback, and what would take too many bases, are left to the readable form.
+
+    Parameters
+    ----------
+    chain, columns, loads, wanted
+        As `riccati.forced.forced_states` takes them.
     """
-    size = np.abs(lanes.omega2)
-    phase = chain.law.wave_number(chain, float(np.max(size))) * chain.length
-    bases = _bases(chain, phase, loads)
-    special = not isinstance(chain.law, Lateral) or any(p.feeds_back for p in chain.points)
-    if special or bases > _MOST_BASES:
-        return readable.forced_states(chain, columns, lanes, loads, wanted)
-    k, cases = len(lanes.omega2), loads.cases
-    driven, ends = _driven(chain, columns, phase, loads, wanted), _ends(chain, size)
-    left, right = np.empty((2, len(wanted), k, SIZE, cases, 2))
-    room = new_room(cases, bases, 2 * len(wanted))
-    if library("forced").call("drive", driven, ends, _lanes(chain, lanes, size), room, left, right)[
-        0
-    ]:
-        raise FloatingPointError("the chain takes more bases than were expected")
-    return Sides(*(side.view(complex)[..., 0] for side in (left, right)))
+
+    def __init__(self, chain: Chain, columns: Columns, loads: Loads, wanted: Integers) -> None:
+        self._asked = chain, columns, loads, wanted
+        self._plain = isinstance(chain.law, Lateral) and not any(p.feeds_back for p in chain.points)
+        self._largest = 0.0
+        self._made: tuple[Driven, int] | None = None
+
+    def states(self, lanes: Lanes) -> Sides:
+        """Return the states at the wanted nodes."""
+        chain, columns, loads, wanted = self._asked
+        size = np.abs(lanes.omega2)
+        driven, bases = self._driven(float(np.max(size))) if self._plain else (None, 0)
+        if driven is None:
+            return readable.forced_states(chain, columns, lanes, loads, wanted)
+        left, right = np.empty((2, len(wanted), len(size), SIZE, loads.cases, 2))
+        room = new_room(loads.cases, bases, 2 * len(wanted))
+        given = driven, _ends(chain, size), _lanes(chain, lanes, size), room, left, right
+        if library("forced").call("drive", *given)[0]:
+            raise FloatingPointError("the chain takes more bases than were expected")
+        after = driven.steps[driven.steps[:, 0] == AFTER, 1]
+        bare = np.setdiff1d(np.arange(len(wanted)), after)
+        right[bare] = left[bare]
+        return Sides(*(side.view(complex)[..., 0] for side in (left, right)))
+
+    def _driven(self, largest: float) -> tuple[Driven | None, int]:
+        """Return the chain in pieces that are short enough, and how many bases they take.
+
+        Those of a frequency before do where it was as high, but not more than twice.
+        """
+        if self._made is not None and 0.25 < largest / self._largest < 1 + _AS_HIGH:
+            return self._made
+        chain, columns, loads, wanted = self._asked
+        phase = chain.law.wave_number(chain, largest) * chain.length
+        bases = _bases(chain, phase, loads)
+        if bases > _MOST_BASES:
+            return None, bases
+        self._largest, self._made = largest, (_driven(chain, columns, phase, loads, wanted), bases)
+        return self._made
 
 
 def _bases(chain: Chain, phase: Array, loads: Loads) -> int:
@@ -111,7 +138,7 @@ def _steps(chain: Chain, forced: list[int], wanted: Integers) -> Integers:
         number, point = points.get(here, (-1, None))
         force = forced.index(here) if here in forced else -1
         steps += _at_node(number, point, force)
-        if here in index:
+        if here in index and (point is not None or force >= 0):
             steps.append((AFTER, index[here], 0))
         if after >= 0:
             steps.append((SEGMENTS, here, after))
@@ -184,7 +211,9 @@ def _lanes(chain: Chain, lanes: Lanes, size: Array) -> Array:
 
 
 def _ends(chain: Chain, size: Array) -> Ends:
-    units, ends = state_units(chain, size), chain.law.ends
+    ends = chain.law.ends
+    alike = not any(chain.following)  # else units tell how much of a force turns
+    units = state_units(chain, size[:1] if alike else size)
     start = np.swapaxes(end_frame(chain, 0, units), 1, 2)
     conditions = np.broadcast_to(right_conditions(chain, units), start.shape)
     frame, wanted = (_groups(np.asarray(part, dtype=float)) for part in (start, conditions))

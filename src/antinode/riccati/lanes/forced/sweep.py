@@ -55,6 +55,7 @@ from .segments import (
     square,
     through_both,
     through_case,
+    through_plain,
     times,
     transfer,
 )
@@ -84,6 +85,7 @@ def drive(chain, ends, lanes, room, left, right):
     """
     w = room.work
     for group in range(len(lanes)):
+        own = min(group, len(ends.start) - 1)
         for place in range(LANE):
             w[place] = lanes[group, place]
         for row in range(8):
@@ -91,13 +93,13 @@ def drive(chain, ends, lanes, room, left, right):
                 put(
                     w,
                     FIRST + row * PAIR + lane,
-                    complex(ends.start[group, row * LANES + lane], 0.0),
+                    complex(ends.start[own, row * LANES + lane], 0.0),
                 )
         active = _start(chain, ends.left_moves, w, room.cases)
         bases, marks = _sweep(chain, w, room, active)
         if bases < 0:
             return 1
-        _close(chain, ends, group, w, room)
+        _close(chain, ends, own, w, room)
         _back(group, w, chain.stiffness, room, bases, marks, left, right)
     return 0
 
@@ -168,6 +170,15 @@ def _is_driven(forces):
 def _segment(chain, k, w, room, active, bases, phase):
     """Pass a segment in short pieces; return the number of bases, and the phase since the last."""
     own = chain.constants[k]
+    if chain.pieces[k] == 1 and active == 0 and len(chain.series) > 0:
+        phase += own[PHASE]
+        if phase > BASIS:
+            if bases + 2 > len(room.back):
+                return -1, phase
+            _renew(w, room, active, bases)
+            bases, phase = bases + 1, own[PHASE]
+        through_plain(own, chain.series[k], w)
+        return bases, phase
     if len(chain.series) == 0 or _is_driven(chain.along[k]):
         series(own, w)
         transfer(own, w)
