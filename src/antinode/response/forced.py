@@ -109,14 +109,14 @@ class Forced:
         """Return components of states, not their rates, over forces and displacements."""
         sides = self.driven.states(lanes)
         if damped is not None:
-            sides = Sides(*map(damped, sides))
+            sides = Sides(*([damped(z) for z in side] for side in sides))
         H = np.empty((len(self.outputs), len(self.drives), len(lanes.omega2)), dtype=complex)
         for row, (output, found) in enumerate(zip(self.outputs, self._found, strict=True)):
             H[row] = self._output(output, *found, sides, lanes).T
         return H
 
     def _proportioned(self, z: Numbers, omega: Array, softer: Numbers) -> Numbers:
-        """Return states with Rayleigh damping, (nodes, k, s, cases), from those of `Damping.lanes`.
+        """Return states with Rayleigh damping, (k, s, cases), from those of `Damping.lanes`.
 
         Damping by mass acts on motion relative to the ground, as that of modes does.
         """
@@ -125,10 +125,10 @@ class Forced:
         z = z.copy()
         moving = np.array([isinstance(drive, Base) for drive in self.drives])
         ground, drag = self.loads.ground, 1 / (1 - 1j * rayleigh.alpha / omega)
-        z[:, :, 0] -= ground
-        z[:, :, :d] *= np.where(moving, drag[:, None], softer[:, None])[:, None]
-        z[:, :, d:] *= np.where(moving, (drag / softer)[:, None], 1.0)[:, None]
-        z[:, :, 0] += ground
+        z[:, 0] -= ground
+        z[:, :d] *= np.where(moving, drag[:, None], softer[:, None])[:, None]
+        z[:, d:] *= np.where(moving, (drag / softer)[:, None], 1.0)[:, None]
+        z[:, 0] += ground
         return z
 
     def _output(self, output: Output, node: int, place: int, sides: Sides, lanes: Lanes) -> Numbers:
@@ -137,7 +137,7 @@ class Forced:
         if component < 0:
             return self._reaction(-1 - component, node, place, sides, lanes)
         left = node == len(self.chain.length) or (output.side == "left" and node > 0)
-        z = (sides.left if left else sides.right)[place, :, component]
+        z = (sides.left if left else sides.right)[place][:, component]
         if output.relative and output.moves:
             z = z - self.loads.ground
         return z

@@ -79,10 +79,10 @@ class Lanes(NamedTuple):
 
 
 class Sides(NamedTuple):
-    """States at some nodes, on either side of what sits there, shape (nodes, k, s, cases)."""
+    """States at some nodes, on either side of what sits there: by node, shape (k, s, cases)."""
 
-    left: Numbers
-    right: Numbers
+    left: list[Numbers]
+    right: list[Numbers]
 
 
 def unit_jump(law: Law, freedom: int) -> Array:
@@ -128,7 +128,8 @@ def forced_states(
     for first in range(0, len(lanes.omega2), together):
         some = Lanes(*(values[first : first + together] for values in lanes))
         parts.append(_states(fine, fine_columns, some, fine_loads, place[wanted]))
-    return Sides(*(np.concatenate(side, axis=1) for side in zip(*parts, strict=True)))
+    lefts, rights = zip(*parts, strict=True)
+    return Sides(*(list(np.concatenate(side, axis=1)) for side in (lefts, rights)))
 
 
 class DrivenChain:
@@ -158,8 +159,13 @@ class _Step(NamedTuple):
     shift: Numbers
 
 
-def _states(chain: Chain, columns: Columns, lanes: Lanes, loads: Loads, wanted: Integers) -> Sides:
-    """Carry frame and particular state to the right end, and the coefficients back."""
+def _states(
+    chain: Chain, columns: Columns, lanes: Lanes, loads: Loads, wanted: Integers
+) -> tuple[Numbers, Numbers]:
+    """Carry frame and particular state to the right end, and the coefficients back.
+
+    Return the states left and right of the nodes, shape (nodes, k, s, cases).
+    """
     sweep = _Sweep(chain, columns, lanes, loads)
     before, after = sweep.run(wanted)
     a = sweep.last_coefficients()
@@ -174,7 +180,7 @@ def _states(chain: Chain, columns: Columns, lanes: Lanes, loads: Loads, wanted: 
             right[index] = step.F @ a + step.p
         a = step.back @ a + step.shift
     scale = sweep.units[:, :, None]
-    return Sides(left * scale, right * scale)
+    return left * scale, right * scale
 
 
 class _Sweep:

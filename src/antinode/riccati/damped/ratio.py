@@ -128,7 +128,7 @@ class Ratio:
         loads, nodes = self._loads
         z = forced_states(base, base.columns, Lanes(omega2, 0 * omega2), loads, nodes).left
         rows = np.searchsorted(nodes, acting.node)
-        G = np.stack([z[row, :, i] for row, i in zip(rows, acting.freedom, strict=True)], axis=1)
+        G = np.stack([z[row][:, i] for row, i in zip(rows, acting.freedom, strict=True)], axis=1)
         return np.asarray((G + np.swapaxes(G, -1, -2)) / 2)
 
     def inverse_norm(

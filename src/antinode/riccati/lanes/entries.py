@@ -83,7 +83,7 @@ ENTRIES: dict[str, Entries] = {
     "forced": {
         "drive": (
             sweep.drive,
-            (_driven, Ends(_f2, _f2, True, True), _f2, new_room(1, 1, 1), _f5, _f5),
+            (_driven, Ends(_f2, _f2, True, True), _f2, new_room(1, 1, 1), _f5),
         ),
     },
 }

@@ -54,7 +54,7 @@ POWERS = 4
 """Of m omega^2 h^4/EI, complex, in each of the four series where there is nothing but N."""
 
 # Kinds of steps, each with two numbers.
-SEGMENTS, LOADS, JOINT, HOLD, BEFORE, AFTER = range(6)
+SEGMENTS, LOADS, JOINT, HOLD, KEEP = range(5)
 
 # Columns of a point.
 MASS, OFFSET, INERTIA, SPRING, TURNING, COUPLING, OWN_LOAD, DAMPER, TURN_DAMPER, COMPLIANCE = range(
@@ -122,8 +122,6 @@ class Room(NamedTuple):
     """Particular states there, shape (marks, cases, COLUMN)."""
     basis: Integers
     """Which basis each belongs to, shape (marks,)."""
-    place: Integers
-    """Which node each is, and on which side, shape (marks, 2)."""
     coefficients: Array
     """Of every case, shape (cases, 2 PAIR)."""
 
@@ -138,6 +136,5 @@ def new_room(cases: int, bases: int, marks: int) -> Room:
         np.zeros((marks, 2 * COLUMN)),
         np.zeros((marks, cases, COLUMN)),
         np.zeros(marks, np.int64),
-        np.zeros((marks, 2), np.int64),
         np.zeros((cases, 2 * PAIR)),
     )

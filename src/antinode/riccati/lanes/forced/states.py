@@ -8,7 +8,7 @@ from math import comb, factorial
 import numpy as np
 
 from antinode.riccati import forced as readable
-from antinode.riccati.arrays import Array, Integers
+from antinode.riccati.arrays import Array, Integers, Numbers
 from antinode.riccati.chain import Chain, end_frame, right_conditions, state_units
 from antinode.riccati.forced import Lanes, Loads, Sides
 from antinode.riccati.lanes.library import library
@@ -18,14 +18,13 @@ from antinode.riccati.laws import Columns
 from antinode.riccati.points import Point
 
 from .layout import (
-    AFTER,
     BASIS,
-    BEFORE,
     CONSTANTS,
     FORCE,
     HOLD,
     INERT,
     JOINT,
+    KEEP,
     LANE,
     LENGTH,
     LOADS,
@@ -71,15 +70,21 @@ class DrivenChain:
         driven, bases = self._driven(float(np.max(size))) if self._plain else (None, 0)
         if driven is None:
             return readable.forced_states(chain, columns, lanes, loads, wanted)
-        left, right = np.empty((2, len(wanted), len(size), SIZE, loads.cases, 2))
-        room = new_room(loads.cases, bases, 2 * len(wanted))
-        given = driven, _ends(chain, size), _lanes(chain, lanes, size), room, left, right
+        places = driven.steps[driven.steps[:, 0] == KEEP, 1:]
+        out = np.empty((len(places), SIZE, loads.cases, len(size), 2))
+        room = new_room(loads.cases, bases, len(places))
+        given = driven, _ends(chain, size), _lanes(chain, lanes, size), room, out
         if library("forced").call("drive", *given)[0]:
             raise FloatingPointError("the chain takes more bases than were expected")
-        after = driven.steps[driven.steps[:, 0] == AFTER, 1]
-        bare = np.setdiff1d(np.arange(len(wanted)), after)
-        right[bare] = left[bare]
-        return Sides(*(side.view(complex)[..., 0] for side in (left, right)))
+        left: list[Numbers] = []
+        right: list[Numbers] = []
+        for states, after in zip(out.view(complex)[..., 0], places[:, 1], strict=True):
+            if after:
+                right[-1] = states.transpose(2, 0, 1)
+            else:  # it is the same on the right where nothing stands
+                left.append(states.transpose(2, 0, 1))
+                right.append(left[-1])
+        return Sides(left, right)
 
     def _driven(self, largest: float) -> tuple[Driven | None, int]:
         """Return the chain in pieces that are short enough, and how many bases they take.
@@ -134,12 +139,12 @@ def _steps(chain: Chain, forced: list[int], wanted: Integers) -> Integers:
     steps: list[tuple[int, int, int]] = []
     for here, after in zip(places, [*places[1:], -1], strict=True):
         if here in index:
-            steps.append((BEFORE, index[here], 0))
+            steps.append((KEEP, index[here], 0))
         number, point = points.get(here, (-1, None))
         force = forced.index(here) if here in forced else -1
         steps += _at_node(number, point, force)
         if here in index and (point is not None or force >= 0):
-            steps.append((AFTER, index[here], 0))
+            steps.append((KEEP, index[here], 1))
         if after >= 0:
             steps.append((SEGMENTS, here, after))
     return np.array(steps)

@@ -14,10 +14,8 @@ from antinode.riccati.lanes.compiling import compiled, wide_vectors
 from antinode.riccati.lanes.workspace import LANES
 
 from .layout import (
-    AFTER,
     BACK,
     BASIS,
-    BEFORE,
     CASE,
     COLUMN,
     COMPLIANCE,
@@ -28,6 +26,7 @@ from .layout import (
     HOLD,
     INERTIA,
     JOINT,
+    KEEP,
     LANE,
     LOADS,
     MASS,
@@ -50,6 +49,7 @@ from .segments import (
     get,
     over,
     plain,
+    plus,
     put,
     series,
     square,
@@ -66,8 +66,8 @@ _ROW = 2 * PAIR  # of the 2 x 2 coefficients, and of the coefficients of a case
 
 
 @compiled
-def drive(chain, ends, lanes, room, left, right):
-    """Set the states on either side of the wanted nodes, of every frequency and load case.
+def drive(chain, ends, lanes, room, out):
+    """Set the states at the marks, of every frequency and load case.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def drive(chain, ends, lanes, room, left, right):
     ends : Ends
     lanes : array, shape (groups, LANE)
     room : Room
-    left, right : array, shape (nodes, k, SIZE, cases, 2)
+    out : array, shape (marks, SIZE, cases, k, 2)
         Set.
 
     Returns
@@ -100,7 +100,7 @@ def drive(chain, ends, lanes, room, left, right):
         if bases < 0:
             return 1
         _close(chain, ends, own, w, room)
-        _back(group, w, chain.stiffness, room, bases, marks, left, right)
+        _back(group, w, chain.stiffness, room, bases, marks, out)
     return 0
 
 
@@ -134,10 +134,9 @@ def _sweep(chain, w, room, active):
                 bases, phase = _segment(chain, k, w, room, active, bases, phase)
                 if bases < 0:
                     return -1, 0
-        elif kind >= BEFORE:
+        elif kind == KEEP:
             _keep(w, room, marks)
             room.basis[marks] = bases
-            room.place[marks, 0], room.place[marks, 1] = first, kind == AFTER
             marks += 1
         else:
             active = max(active, _node(chain, kind, first, last, w, room, bases))
@@ -376,17 +375,14 @@ def _condition(wanted, row, z, column, lane):
 
 
 @compiled
-def _back(group, w, stiffness, room, bases, marks, left, right):
+def _back(group, w, stiffness, room, bases, marks, out):
     """Carry the coefficients back, and write the states at the marks."""
     mark = marks - 1
     for basis in range(bases, -1, -1):
         if basis < bases:
             _before(w, room, basis)
         while mark >= 0 and room.basis[mark] == basis:
-            if room.place[mark, 1]:
-                _write(group, w, stiffness, room, mark, right[room.place[mark, 0]])
-            else:
-                _write(group, w, stiffness, room, mark, left[room.place[mark, 0]])
+            _write(group, w, stiffness, room, mark, out[mark])
             mark -= 1
 
 
@@ -412,16 +408,13 @@ def _before(w, room, basis):
 
 @compiled
 def _write(group, w, stiffness, room, mark, out):
-    """Write the states at a mark in SI, shape (k, SIZE, cases, 2)."""
-    F = room.frames[mark]
-    for case in range(out.shape[2]):
+    """Write the states at a mark in SI, shape (SIZE, cases, k, 2)."""
+    F, first = room.frames[mark], group * LANES
+    for case in range(out.shape[1]):
         z, a = room.kept[mark, case], room.coefficients[case]
-        for lane in range(min(LANES, len(out) - group * LANES)):
-            a0, a1 = get(a, lane), get(a, PAIR + lane)
-            unit = w[UNIT + lane]
-            for row in range(4):
-                place = row * PAIR + lane
-                value = get(F, place) * a0 + get(F, COLUMN + place) * a1 + get(z, place)
+        for row in range(4):
+            for lane in range(min(LANES, out.shape[2] - first)):
+                unit, place = w[UNIT + lane], row * PAIR + lane
                 scale = unit
                 if row == 1:
                     scale = 1.0
@@ -429,5 +422,7 @@ def _write(group, w, stiffness, room, mark, out):
                     scale = stiffness / unit
                 elif row == 3:
                     scale = stiffness / (unit * unit)
-                out[group * LANES + lane, row, case, 0] = scale * value.real
-                out[group * LANES + lane, row, case, 1] = scale * value.imag
+                value = plus(get(z, place), get(F, place), get(a, lane))
+                value = plus(value, get(F, COLUMN + place), get(a, PAIR + lane))
+                out[row, case, first + lane, 0] = scale * value.real
+                out[row, case, first + lane, 1] = scale * value.imag
