@@ -1,6 +1,7 @@
 """Random beams under following forces: none missing, none too many (validation/following.md).
 
 python validation/following.py [beams]
+python validation/following.py near [beams]
 python validation/following.py tables [beams]
 """
 
@@ -13,30 +14,55 @@ TESTS = Path(__file__).resolve().parents[1] / "tests"
 sys.path[:0] = [str(TESTS), str(TESTS / "exact")]
 
 from following_beams import random_beam  # noqa: E402
-from test_following_random import compared, distances, solved  # noqa: E402
+from following_digits import compared, edges, near_flutter, stepped  # noqa: E402
+from test_following_random import distances  # noqa: E402
+
+LOADS = (2.0, 8.0, 20.0, 40.0, 80.0, 150.0)
+KINDS = ("any", "any", "uneven")
 
 
 def main(beams):
-    """Compare so many beams, and print what is missing, too many, and the largest distance."""
-    missing = spurious = flutter = failed = 0
-    worst = 0.0
+    """Compare so many stepped beams with 40 digits, and lines that graze their eigenvalues."""
+    found, lines = [], []
     for seed in range(beams):
         rng = np.random.default_rng(1000 + seed)
-        beam = random_beam(rng, load=[2.0, 8.0, 20.0, 40.0, 80.0, 150.0][seed % 6])
-        try:
-            lost, extra, far = compared(beam)
-            flutter += bool(np.any(solved(beam)[0].imag))
-        except AssertionError as error:
-            failed += 1
-            print(f"seed {1000 + seed}: {error}", flush=True)
-            continue
-        if lost or extra:
-            print(f"seed {1000 + seed}: {lost} missing, {extra} spurious", flush=True)
-        missing, spurious, worst = missing + lost, spurious + extra, max(worst, far)
+        beam = stepped(rng, KINDS[seed % 3], LOADS[(seed // 3) % 6])
+        found += _tried(1000 + seed, beam, lines)
+    _tell(f"{beams} beams", found, lines, beams - len(found))
+
+
+def near(beams):
+    """The same next to flutter: from 1e-2 to 1e-9 below and above the load where it begins."""
+    found, lines, tried = [], [], 0
+    for seed in range(beams):
+        beam = stepped(np.random.default_rng(5000 + seed), KINDS[seed % 3], LOADS[0])
+        for each in near_flutter(beam):
+            tried += 1
+            found += _tried(5000 + seed, each, lines)
+    _tell(f"{tried} beams next to flutter", found, lines, tried - len(found))
+
+
+def _tried(seed, beam, lines):
+    try:
+        one = compared(beam)
+    except AssertionError as error:
+        print(f"seed {seed}: {error}", flush=True)
+        return []
+    lines.append(edges(beam))
+    if one.missing or one.spurious or one.over > 1 or lines[-1][1]:
+        print(f"seed {seed}: {one}, lines {lines[-1]}", flush=True)
+    return [one]
+
+
+def _tell(what, found, lines, failed):
+    missing, spurious, over, flutters, diverges = np.array(found, dtype=float).T
     print(
-        f"{beams} beams, {flutter} with flutter: {missing} missing, {spurious} spurious, "
-        f"{failed} not proven; largest relative distance {worst:.1e}"
+        f"{what}, {flutters.sum():.0f} flutter, of {diverges.sum():.0f} something diverges: "
+        f"{missing.sum():.0f} missing, {spurious.sum():.0f} spurious, {failed} not proven; "
+        f"largest error over the stated one {over.max():.1e}"
     )
+    proven, wrong = np.sum(lines, axis=0)
+    print(f"lines that graze an eigenvalue: {proven} proven, {wrong} of them wrong")
 
 
 def tables(beams):
@@ -52,7 +78,9 @@ def tables(beams):
     )
 
 
+RUNS = {"near": (near, 30), "tables": (tables, 100)}
+
 if __name__ == "__main__":
-    number = sys.argv[-1]
-    run = tables if "tables" in sys.argv else main
-    run(int(number) if number.isdigit() else 100 if run is tables else 300)
+    words = sys.argv[1:]
+    run, number = next((RUNS[w] for w in words if w in RUNS), (main, 300))
+    run(next((int(w) for w in words if w.isdigit()), number))

@@ -53,6 +53,18 @@ def _forces(case: Case) -> Iterator[Block]:
         ],
         left=(0, 2),
     )
+    added = [
+        (p.name, p.formula, f"{number(p.start)} … {number(p.end)}", number(p.mass, 4))
+        for p in case.added_masses
+    ]
+    if added:
+        yield table(
+            "Added mass: water that moves sideways with the body, spread evenly along each part. "
+            "It has no weight, and does not move along.",
+            ("part", "formula", "x [m]", "mass [kg]"),
+            added,
+            left=(0, 1),
+        )
 
 
 def _checks(case: Case) -> Iterator[Block]:

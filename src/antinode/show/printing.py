@@ -250,6 +250,10 @@ def show_condition(out: Console, case: Case) -> None:
         f"{loads.checks.worst:.0e}",
         highlight=False,
     )
+    if case.added_masses:
+        from .water import added_mass_text
+
+        out.print(added_mass_text(case), highlight=False)
 
 
 def _drag_text(case: Case) -> str:

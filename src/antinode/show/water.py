@@ -10,6 +10,7 @@ from antinode.beam.families import BENDING
 from antinode.modes.result import ModalResult, Mode, null
 from antinode.modes.solve import solve_modes
 from antinode.vehicle.case import Case
+from antinode.vehicle.hydrodynamics.added_mass import AddedMass
 from antinode.vehicle.tangent import Tangent
 
 QUASI_STEADY = 0.3
@@ -23,8 +24,11 @@ def reduced_frequency(mode: Mode, case: Case) -> float:
 
 def water_dict(case: Case, result: ModalResult) -> dict[str, Any]:
     """Return the water's stiffness as plain numbers for JSON, units in the keys."""
+    added = [_added_dict(part) for part in case.added_masses]
+    more: dict[str, Any] = {"added_mass": added} if added else {}
     if not case.tangents:
-        return {"hydrodynamic_stiffness": case.model.hydrodynamic_stiffness, "tangents": []}
+        kind = case.model.hydrodynamic_stiffness
+        return {"hydrodynamic_stiffness": kind, "tangents": [], **more}
     modes = [m for m in result.family(BENDING) if m.number]
     without = bending_without(case, result)
     return {
@@ -35,6 +39,7 @@ def water_dict(case: Case, result: ModalResult) -> dict[str, Any]:
             "frequencies_hz": [null(m.frequency_hz) for m in without],
             "error_hz": [null(m.error_hz) for m in without],
         },
+        **more,
     }
 
 
@@ -45,6 +50,25 @@ def bending_without(case: Case, result: ModalResult) -> list[Mode]:
     plain = case.model_copy(update={"model": model})
     found = solve_modes(plain, number, tolerance=result.tolerance, families=[BENDING])
     return [m for m in found.family(BENDING) if m.number][:number]
+
+
+def _added_dict(part: AddedMass) -> dict[str, Any]:
+    return {
+        "name": part.name,
+        "formula": part.formula,
+        "from_m": part.start,
+        "to_m": part.end,
+        "mass_kg": part.mass,
+    }
+
+
+def added_mass_text(case: Case) -> str:
+    """Return the size of the water that moves sideways with the body; empty if there is none."""
+    parts = [
+        f"{p.name} {p.mass:.4g} kg ({p.formula}; {p.start:.4g} to {p.end:.4g} m)"
+        for p in case.added_masses
+    ]
+    return f"added mass, sideways alone: {', '.join(parts)}" if parts else ""
 
 
 def _tangent_dict(tangent: Tangent) -> dict[str, Any]:

@@ -28,7 +28,6 @@ from .forces import ForceOnBody, drag_ahead
 from .many_loads import ManyLoads
 from .theory import Sheared, sheared
 
-
 _TOGETHER = 512  # cases whose arrays stay near the processor
 
 

@@ -101,6 +101,17 @@ class Model(Frozen):
         "follow",
     )
 
+    fin_added_mass: Literal["none", "plate", "plate_one_face"] = Field(
+        default="none",
+        description="water that moves sideways with the wetted fins: none, rho pi c^2/4 per span "
+        "as of a plate in open water, or half of that, a cavity behind it",
+    )
+    planing_added_mass: Literal["none", "wedge"] = Field(
+        default="none",
+        description="water that moves sideways with the planing tail: none, or rho pi b^2/8 of "
+        "each strip, b its wetted width; rho pi R^2 where it is wet all round",
+    )
+
     @model_validator(mode="after")
     def _one_for_the_disk(self) -> Model:
         if self.hydrodynamic_stiffness == "tangent" and self.cavitator_follows is not None:

@@ -61,7 +61,8 @@ def test_wide_brackets_hold_what_narrow_ones_hold(ends):
     batch = replace(random_batch(np.random.default_rng(3), "free", "free", 100, 30), ends=ends)
     narrow, wide = an.solve_many(batch), an.solve_many(batch, width=1e-6)
     low, high = np.moveaxis(wide.bracket_omega2, -1, 0)
-    assert not narrow.reason.any() and not wide.reason.any()
+    assert not narrow.reason.any()
+    assert not wide.reason.any()
     assert np.all((low <= narrow.omega2) & (narrow.omega2 <= high))
     assert np.all(high - low <= 1e-6 * high)
     assert np.max(high / low - 1) > 1e-8

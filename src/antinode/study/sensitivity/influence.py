@@ -57,12 +57,16 @@ class Influence(NamedTuple):
 
 
 def case_influences(case: Case, result: ModalResult, most: int) -> list[Influence]:
-    """Return what moves the bending modes 1 ... n of a vehicle, solved before."""
+    """Return what moves the bending modes 1 ... n of a vehicle, solved before.
+
+    Added mass of wetted parts keeps its size and its place.
+    """
     omega2 = [mode.omega2 for mode in result.family(BENDING) if mode.number][:most]
     chain = result.solutions[BENDING].chain
     backend = for_one(len(chain.length), len(omega2))
     modes = ChainModes(chain, np.array(omega2), backend, result.beam.shear_form)
-    sensitivity = EigenvalueDerivatives(modes, result.beam, case.loads)
+    beam = case.without_added_mass.beam() if case.added_masses else result.beam
+    sensitivity = EigenvalueDerivatives(modes, beam, case.loads)
     return [*_of_condition(case, sensitivity), *_of_body(case, sensitivity)]
 
 
