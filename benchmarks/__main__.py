@@ -1,5 +1,7 @@
 """All benchmarks in one run: python -m benchmarks; writes results.json and README.md's table.
 
+With names of parts, `python -m benchmarks single smooth`, these alone, and nothing is written.
+
 One process, one thread. Answers are compared before anything is timed; times are medians of many
 calls, antinode's and the peer's in turn. The machine is calibrated before and after every part, and
 every peer held against its figure, so scaled (peers/figures.py).
@@ -10,6 +12,7 @@ import os
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
     os.environ[_name] = "1"
 
+import argparse  # noqa: E402
 import datetime  # noqa: E402
 import json  # noqa: E402
 import platform  # noqa: E402
@@ -335,15 +338,29 @@ def _processor():
     return (names[0] if names else platform.machine()) + wide
 
 
-def main():
+PARTS = step, batch, sheared, loads, single, smooth, long_chain, cold_start
+
+
+def main(given=None):
+    """Run all parts and write the record; or only those that are named, and write nothing."""
+    names = [part.__name__ for part in PARTS]
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=main.__doc__)
+    parser.add_argument("parts", nargs="*", metavar="part", help=", ".join(names))
+    asked = parser.parse_args(given).parts
+    if unknown := [name for name in asked if name not in names]:
+        parser.error(f"there is no part {unknown[0]!r}; there are {', '.join(names)}")
     where, rows = machine(), []
     before = where["calibration_s"]
-    for part in (step, batch, sheared, loads, single, smooth, long_chain, cold_start):
+    for part in PARTS:
+        if asked and part.__name__ not in asked:
+            continue
         found, after = part(), calibration()
         for one in found:
             rows.append(figures.judge(one, before, after))
             print(_line(one))
         before = after
+    if asked:
+        return
     for one in rows:
         one["machine"] = where
     table.RESULTS.write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")

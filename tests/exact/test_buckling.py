@@ -8,7 +8,7 @@ import pytest
 from antinode import Beam, Ends
 from antinode.modes.buckling import buckling
 from antinode.modes.rigid import rigid_modes
-from antinode.riccati.bracket import narrow
+from antinode.riccati.roots import narrow
 from many_digits import critical_load
 
 PAIRS = [(a, b) for a in ("free", "clamped", "pinned", "sliding") for b in ("clamped", "free")]

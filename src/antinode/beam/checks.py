@@ -211,7 +211,8 @@ def varying(beam: Beam, name: FamilyName) -> npt.NDArray[np.bool_]:
     lossy = () if beam.loss_factor is None else (beam.loss_factor,)
     columns = (given(beam, name, column) for column in family.law.columns)
     for table in (*columns, *(getattr(beam, more) for more in family.used(beam)), *lossy):
-        found |= np.any(table[:, 1:] != table[:, :1], axis=1)
+        differs = table[:, 1:] != table[:, :1]
+        found |= differs[:, 0] if differs.shape[1] == 1 else np.any(differs, axis=1)
     found.flags.writeable = False
     return found
 

@@ -10,6 +10,7 @@ Sources: sqrt(E/rho) of beryllium 12.9 km/s, steel and aluminium 5.1, lead 1.2, 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -59,7 +60,7 @@ def doubts(beam: Beam) -> list[str]:
     ]
     EI = 1 / _mean_compliance(beam, "bending_stiffness")
     if beam.axial_stiffness is None:
-        alone = _bending_alone(beam, np.sqrt(EI / per_length), np.sqrt(EI / own))
+        alone = _bending_alone(beam, math.sqrt(EI / per_length), math.sqrt(EI / own))
         return [*pulled, *alone]
     EA = 1 / _mean_compliance(beam, "axial_stiffness")
     speeds = list(_wave_speed(float(np.sqrt(EA / per_length)), float(np.sqrt(EA / own))))
@@ -68,9 +69,9 @@ def doubts(beam: Beam) -> list[str]:
 
 
 def _mean_compliance(beam: Beam, name: str) -> float:
-    h = np.diff(beam.x)
-    values = (beam.column_at(name, np.s_[:], np.full(len(h), t)) for t in (0.0, 0.5, 1.0))
-    return float(_mean_of_inverse(h, *values))
+    h, table = np.diff(beam.x), getattr(beam, name)
+    middle = beam.column_at(name, np.s_[:], np.full(len(h), 0.5))
+    return float(_mean_of_inverse(h, table[:, 0], middle, table[:, -1]))
 
 
 def mean_compliance(stiffness: Profile) -> Array:
@@ -237,6 +238,8 @@ def _weight_from_clamp(beam: Beam) -> Iterator[str]:
 
 def pushed_at(beam: Beam) -> list[float]:
     """Return the stations of springs that no passive support has [m]."""
+    if not beam.attachments:
+        return []
     points = gather(beam.attachments, beam.x, BENDING, 0.0).values()
     return [float(beam.x[point.node]) for point in points if pushing_springs(point)]
 

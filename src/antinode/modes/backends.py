@@ -16,6 +16,7 @@ from antinode.riccati.chain import Chain, Evaluation
 from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
 from antinode.riccati.forced import Lanes, Loads, Sides
 from antinode.riccati.laws import Columns
+from antinode.riccati.normalised import Normalised, Wanted
 from antinode.riccati.roots import Eigenvalue, FollowingRoots
 from antinode.riccati.shapes import Energies
 
@@ -86,6 +87,10 @@ class Backend(Protocol):
         """Solve a beam with steps halved until they agree; None if that is not its own to do."""
         ...
 
+    def cut(self, chain: Chain, positions: Array, omega2: Array, /) -> Chain:
+        """Return a chain with joints at positions as well, fit for states at every omega^2."""
+        ...
+
     def mode_states(
         self, chain: Chain, omega2: Array, multiplicity: Integers, /, *, adjoint: bool = False
     ) -> Array:
@@ -94,6 +99,18 @@ class Backend(Protocol):
 
     def mode_energies(self, chain: Chain, states: Array, omega2: Array, /) -> Energies:
         """Return modal mass and stiffness of modes."""
+        ...
+
+    def normalise(
+        self,
+        chain: Chain,
+        states: Array,
+        omega2: Array,
+        wanted: Wanted,
+        left: Array | None = None,
+        /,
+    ) -> Normalised:
+        """Return modes scaled as asked, with their forms, at places along the chain."""
         ...
 
     def driven(

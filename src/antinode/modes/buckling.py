@@ -23,8 +23,8 @@ from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
 from antinode.beam.loads.turning import refuse_complex
 from antinode.errors import ComputationError, InputError
-from antinode.riccati.bracket import Sample, narrow
 from antinode.riccati.chain import Chain
+from antinode.riccati.roots import Sample, narrow
 from antinode.riccati.shapes import Energies, energies, split_for
 
 from .backends import Backend, BackendName, choose, for_one

@@ -17,9 +17,8 @@ from antinode.beam.families import FamilyName
 from antinode.errors import ComputationError
 from antinode.riccati.arrays import Complex
 from antinode.riccati.chain import Chain
-from antinode.riccati.laws import Squares
 from antinode.riccati.roots import Certificate, CountingError, Eigenvalue, FollowingRoots
-from antinode.riccati.shapes import Energies
+from antinode.riccati.shapes import Energies, energies_between
 
 from .backends import Backend
 from .rigid import rigid_modes
@@ -184,8 +183,7 @@ def energies_of_modes(backend: Backend, chain: Chain, states: Array, omega2: Arr
 def two_sided_energies(backend: Backend, chain: Chain, right: Array, omega2: Array) -> Energies:
     """Return the energies of modes between right and left eigenvectors.
 
-    The left eigenvector w is scaled as the right one v, and so that int m w v > 0. The stiffness
-    holds what the ends do: ``kappa psi_v w`` at the right, less the same at the left.
+    The left eigenvector w is scaled as the right one v, and so that int m w v > 0.
 
     Parameters
     ----------
@@ -194,16 +192,7 @@ def two_sided_energies(backend: Backend, chain: Chain, right: Array, omega2: Arr
     omega2 : array, shape (k,)
     """
     left = left_states(backend, chain, right, omega2)
-    plus, minus = (
-        backend.mode_energies(chain, right + sign * left, omega2) for sign in (1.0, -1.0)
-    )
-    squares = Squares(*((a - b) / 4 for a, b in zip(plus.squares, minus.squares, strict=True)))
-    mass, stiffness = (plus.mass - minus.mass) / 4, (plus.stiffness - minus.stiffness) / 4
-    for side, sign in ((0, -1.0), (-1, 1.0)):
-        turn = chain.following[side] * right[side, :, 1] * left[side, :, 0]
-        stiffness = stiffness + sign * turn
-    size = np.abs(plus.size + minus.size) / 4
-    return Energies(squares, mass, stiffness, size)
+    return energies_between(backend.mode_energies, chain, right, left, omega2)
 
 
 def left_states(backend: Backend, chain: Chain, right: Array, omega2: Array) -> Array:

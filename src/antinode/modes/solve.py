@@ -24,18 +24,18 @@ from antinode.beam.families import BENDING, FAMILIES, FamilyName
 from antinode.beam.limits import check_tension, out_of_range_is_an_error
 from antinode.errors import ComputationError, InputError
 from antinode.riccati.chain import omega2_scale
+from antinode.riccati.normalised import Wanted
 from antinode.riccati.roots import Eigenvalue
-from antinode.riccati.shapes import split_for
 from antinode.text import short
 
 from .backends import Backend, BackendName, choose, for_one
 from .brackets import ROUNDING, cancelling
-from .following import energies_of_modes
+from .following import left_states
 from .hertz import settled
 from .naming import name_modes, with_joint_brackets
 from .refinement import NEAR_ZERO, Solved, solve_family
 from .result import Damping, Kind, Method, ModalResult, Mode, Normalisation, Solution
-from .shapes import estimate_model_errors, normalising_factors, on_grid, output_grid, shapes
+from .shapes import left_out, model_errors_of, output_grid, shapes
 from .solvers import Solver, solver_of
 from .warnings import result_warnings
 
@@ -254,22 +254,19 @@ def _modes_of(
         if number <= modes or value.order < 0 or value.imaginary
     ]
     places = grid - grid[0]
-    chain = solved.chain.cut_at(places[np.append(True, places[1:] > places[:-1])])
     omega2 = np.array([solved.eigenvalues[k].value for k in keep])
-    chain = split_for(chain, np.abs(omega2))
+    chain = backend.cut(solved.chain, places, omega2)
     states = shapes(backend, beam, chain, solved.eigenvalues, keep, names)
-    energies = energies_of_modes(backend, chain, states, omega2)
-    scale = normalising_factors(chain, states, omega2, np.abs(energies.mass), normalisation)
-    states = states * scale[:, None]
-    at_grid = on_grid(chain, states, omega2, places).real
-    energies = energies.scaled(scale)
-    mass = np.abs(energies.mass)
-    model_errors = estimate_model_errors(beam, chain, omega2, energies)
-    size = cancelling(energies.size, mass, omega2)
-    off = np.abs(energies.stiffness / energies.mass - omega2)
+    left = left_states(backend, chain, states, omega2) if chain.follows else None
+    wanted = Wanted(places, left_out(beam, chain), normalisation == "mass")
+    states, at_grid, forms = backend.normalise(chain, states, omega2, wanted, left)
+    mass = np.abs(forms.mass)
+    model_errors = model_errors_of(beam, chain, omega2, forms)
+    size = cancelling(forms.size, mass, omega2)
+    off = np.abs(forms.stiffness / forms.mass - omega2)
     quadratic = np.transpose([mass, off, size.real]).tolist()
     near_zero = NEAR_ZERO * omega2_scale(solved.chain)
-    given = zip(keep, at_grid.swapaxes(0, 1), quadratic, model_errors, strict=True)
+    given = zip(keep, at_grid.real, quadratic, model_errors, strict=True)
     rows = [
         _mode(solved, k, names[k], shape, sums, model_error, near_zero)
         for k, shape, sums, model_error in given

@@ -6,12 +6,14 @@ from .arrays import Array
 from .chain import Chain, evaluate
 from .chains import BeamRoots, ChainRoots, Chains, Tables
 from .forced import DrivenChain
+from .normalised import normalise
 from .reasons import BY_ITSELF
 from .roots import FollowingRoots, find_eigenvalues
-from .shapes import mode_energies, mode_states
+from .shapes import cut, mode_energies, mode_states
 
 __all__ = [
     "certify_guesses",
+    "cut",
     "driven",
     "evaluate",
     "find_eigenvalues",
@@ -19,6 +21,7 @@ __all__ = [
     "mode_energies",
     "mode_states",
     "name",
+    "normalise",
     "solve_beam",
     "solve_chains",
 ]

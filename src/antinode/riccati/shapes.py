@@ -9,6 +9,8 @@ solution.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from functools import cache
 from typing import NamedTuple
 
@@ -173,6 +175,12 @@ def split_for(chain: Chain, omega2: Array) -> Chain:
     return split_long(chain, float(np.max(np.abs(omega2))))
 
 
+def cut(chain: Chain, positions: Array, omega2: Array) -> Chain:
+    """Return the chain with a joint at each ascending position [m], fit for every omega^2."""
+    new = np.append(True, positions[1:] > positions[:-1])
+    return split_for(chain.cut_at(positions[new]), np.abs(omega2))
+
+
 def kept_nodes(chain: Chain, fine: Chain) -> Integers:
     """Return where the nodes of a chain lie among those of a finer one."""
     if fine is chain:
@@ -298,6 +306,27 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> Energies:
     return energies(chain, states, integrate_squares(chain, states, omega2))
 
 
+def energies_between(
+    energies_of: Callable[[Chain, Array, Array], Energies],
+    chain: Chain,
+    right: Array,
+    left: Array,
+    omega2: Array,
+) -> Energies:
+    """Return energies between right and left eigenvectors, from those of sums and differences.
+
+    The stiffness holds what following ends do: ``kappa psi_v w`` at the right, less the same at
+    the left.
+    """
+    plus, minus = (energies_of(chain, right + sign * left, omega2) for sign in (1.0, -1.0))
+    squares = Squares(*((a - b) / 4 for a, b in zip(plus.squares, minus.squares, strict=True)))
+    mass, stiffness = (plus.mass - minus.mass) / 4, (plus.stiffness - minus.stiffness) / 4
+    for side, sign in ((0, -1.0), (-1, 1.0)):
+        turn = chain.following[side] * right[side, :, 1] * left[side, :, 0]
+        stiffness = stiffness + sign * turn
+    return Energies(squares, mass, stiffness, np.abs(plus.size + minus.size) / 4)
+
+
 def energies(chain: Chain, states: Array, squares: Squares) -> Energies:
     """Return modal mass and stiffness from the integrals over the segments, and the points."""
     mass, strain, work, size = chain.law.forms(chain.columns, squares)
@@ -326,13 +355,19 @@ def integrate_squares(chain: Chain, states: Array, omega2: Array) -> Squares:
     return Squares(*total)
 
 
+RULES = (0.05, 3), (0.2, 4), (0.7, 6), (math.inf, 10)
+"""Points for squares of states, up to so much of a wave."""
+
+
 def gauss_rule(phase: float) -> tuple[Array, Array]:
     """Return points on 0 ... 1 and weights for squares of states over so much of a wave."""
-    return _rule(3 if phase < 0.05 else 4 if phase < 0.2 else 6 if phase < 0.7 else 10)
+    numbers = (number for limit, number in RULES if phase < limit)
+    return gauss_points(next(numbers, RULES[-1][1]))
 
 
 @cache
-def _rule(number: int) -> tuple[Array, Array]:
+def gauss_points(number: int) -> tuple[Array, Array]:
+    """Return a rule of Gauss on 0 ... 1."""
     points, weights = np.polynomial.legendre.leggauss(number)
     return (points + 1) / 2, weights / 2
 

@@ -26,7 +26,7 @@ from antinode.modes.loading import (
 )
 from antinode.modes.refinement import Refinement, layer_length, varying_segments
 from antinode.modes.rigid import rigid_modes
-from antinode.riccati.bracket import narrow
+from antinode.riccati.roots import narrow
 
 from .result import Certificate, CriticalLoad
 

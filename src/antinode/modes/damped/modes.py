@@ -19,13 +19,12 @@ from antinode.modes.rigid import centre_of_mass, rigid_rotation, rotary_inertia
 from antinode.modes.shapes import (
     can_estimate,
     model_error_sums,
-    normalising_factors,
-    on_grid,
 )
 from antinode.riccati.chain import Chain
 from antinode.riccati.damped.chain import Damped, adjoint_chain
 from antinode.riccati.damped.energies import Products, products
 from antinode.riccati.damped.shapes import complex_states
+from antinode.riccati.normalised import normalising_factors, states_at
 from antinode.riccati.shapes import Energies, split_for
 
 from .family import DampedFamily, solve_damped
@@ -161,14 +160,14 @@ class _Shapes:
         self.states: Numbers = np.concatenate([resting, states], axis=1)
         self.left: Numbers = np.concatenate([resting, left], axis=1)
         scale: Numbers = normalising_factors(
-            self.chain, self.states, self.omega2, mass, normalisation
+            self.chain, self.states, self.omega2, mass, normalisation == "mass"
         )
         self.states *= scale[:, None]
         self.left[:, number:] /= scale[number:, None]
         self.mass = mass * np.abs(scale) ** 2
-        self.at_grid: Numbers = on_grid(self.chain, self.states, self.omega2, places)
+        self.at_grid: Numbers = states_at(self.chain, self.states, self.omega2, places)
         adjoint = adjoint_chain(self.chain)
-        self.left_at_grid: Numbers = on_grid(adjoint, self.left, self.omega2, places)
+        self.left_at_grid: Numbers = states_at(adjoint, self.left, self.omega2, places)
 
 
 def _on(damped: Damped, chain: Chain) -> tuple[Damped, Chain]:

@@ -37,7 +37,7 @@ def machine_code(part: Part) -> bytes:
     from .entries import ENTRIES
 
     symbols = {_compile_entry(*entry): PREFIX + name for name, entry in ENTRIES[part].items()}
-    return _optimised(modules, symbols)
+    return _optimised(modules, symbols, unrolled=part != "shapes")
 
 
 def _check_arrays() -> None:
@@ -252,8 +252,11 @@ def _give() -> Any:
     return intrinsic(give)
 
 
-def _optimised(modules: list[Any], symbols: dict[str, str]) -> bytes:
-    """Link all modules into one, optimise it as numba would, and return its object code."""
+def _optimised(modules: list[Any], symbols: dict[str, str], *, unrolled: bool) -> bytes:
+    """Link all modules into one, optimise it as numba would, and return its object code.
+
+    Where short loops over lanes are not unrolled they become vectors.
+    """
     import llvmlite.binding as llvm
     from numba.core.registry import cpu_target
 
@@ -269,6 +272,7 @@ def _optimised(modules: list[Any], symbols: dict[str, str]) -> bytes:
     for speed, vectorise in ((0, False), (3, True)):  # first short functions into their callers
         settings = llvm.create_pipeline_tuning_options(speed_level=speed)
         settings.loop_vectorization, settings.slp_vectorization = vectorise, False
+        settings.loop_unrolling = unrolled
         builder = llvm.create_pass_builder(codegen._tm, settings)
         manager = builder.getModulePassManager()
         if not speed:

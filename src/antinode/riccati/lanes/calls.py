@@ -23,15 +23,16 @@ from . import single
 from .forced.states import DrivenChain
 from .laws import FORMS
 from .library import library
+from .modal.states import cut, mode_energies, mode_states, normalise
 from .scratch import Need, new_table, scratch
 from .single import Found, SingleChain, more_columns
-from .states import mode_energies, mode_states
 from .structures import Kept
 from .workspace import NO_POINTS, POINT, ROWS, Interior, Nodes, Task, Warmth, new_chain
 from .workspace import Chain as Own
 
 __all__ = [
     "certify_guesses",
+    "cut",
     "driven",
     "evaluate",
     "find_eigenvalues",
@@ -39,6 +40,7 @@ __all__ = [
     "mode_energies",
     "mode_states",
     "name",
+    "normalise",
     "solve_beam",
     "solve_chains",
 ]

@@ -38,10 +38,15 @@ def summing(function: Any) -> Any:
     return _mark(function, _FAST | {"reassoc"})
 
 
-def _mark(function: Any, fastmath: set[str]) -> Any:
+def apart(function: Any) -> Any:
+    """Mark a function as compiled whose arrays never overlap: short loops over lanes need that."""
+    return _mark(function, _FAST, apart=True)
+
+
+def _mark(function: Any, fastmath: set[str], *, apart: bool = False) -> Any:
     if not _numba:
         return function
-    options = {**_OPTIONS, "pipeline_class": few_passes()}
+    options = {**_OPTIONS, "pipeline_class": few_passes(apart)}
     made = _numba[0].njit(**options, fastmath=fastmath)(function)
     _compile_once(made)
     return made
@@ -62,16 +67,18 @@ def _compile_once(made: Any) -> None:
 
 
 @cache
-def few_passes() -> Any:
+def few_passes(apart: bool = False) -> Any:
     """Return a pipeline of numba's with those passes alone that functions here need.
 
-    They have no closures, contexts or objects, inline nothing, and prune no branches.
+    They have no closures, contexts or objects, inline nothing, and prune no branches. `apart` says
+    that no two arrays of a function's arguments overlap.
     """
     from numba.core import compiler, typed_passes, untyped_passes
     from numba.core.compiler_machinery import PassManager
 
     class FewPasses(compiler.CompilerBase):
         def define_pipelines(self):
+            self.state.flags.noalias = apart
             manager = PassManager("few passes")
             for which in (
                 untyped_passes.TranslateByteCode,

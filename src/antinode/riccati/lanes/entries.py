@@ -11,21 +11,25 @@ import numpy as np
 
 from antinode.riccati.chains import ChainRoots
 
-from . import following, laws, levels, rows, search, shapes
+from . import following, laws, levels, rows, search
 from .forced import sweep
-from .forced.layout import Driven, Ends, new_room
+from .forced.layout import Driven, Ends
+from .forced.layout import new_room as new_forced_room
+from .modal import integrals, segments, shapes
 from .structures import Kept
 from .workspace import (
     NO_POINTS,
+    Asked,
     Interior,
     Nodes,
+    Rules,
     Task,
     Warmth,
     new_chain,
     new_lanes,
     new_levels,
+    new_room,
     new_roots,
-    new_scaled,
     new_search,
 )
 
@@ -37,7 +41,7 @@ _chain, _lanes, _search = new_chain(1, 1, 1, 1), Kept(new_lanes()), Kept(new_sea
 _kept_chain = Kept(_chain)
 _task, _warmth = Task(1, 1.0, True), Warmth(_i1, _f1, _f1, _f3, _f2)
 _interior = Interior(1, 1, 1.0, 1.0, 1.0, True, 1.0, 1.0, 1)
-_scaled = new_scaled(1)
+_room, _rules = Kept(new_room(1)), Rules(_f1, _i1, _f2, _f2)
 _found = ChainRoots.empty(1, 1)
 _driven = Driven(_i2, _f2, _i1, _f2, _f2, _f2, _f3, _f1, 1.0)
 
@@ -70,20 +74,18 @@ ENTRIES: dict[str, Entries] = {
         "repeat": (search.repeat, (_chain, _f2, _lanes, _i, _i)),
     },
     "shapes": {
-        "scaled_chain": (shapes.scaled_chain, (_f1, _f1, _f1, _f2, _f1, _f1, _f, _scaled)),
-        "transfers": (shapes.transfers, (_f1, _scaled, _f1, _f2, _f3)),
-        "sweeps": (shapes.sweeps, (_f3, _i1, _f3, _f3, _f2, _f3, _f3, _f3, _f3)),
-        "meet": (shapes.meet, (_f3, _f3, _f2, _i1, _f2)),
-        "carry": (shapes.carry, (_f3, _f3, _f3, _f3, _i1, _f2, _f2, _f3)),
-        "squares": (
-            shapes.squares,
-            (_f1, _f1, _scaled, _f1, _f2, _f3, _f1, _f1, _f2, _f3),
+        "cut": (segments.cut, (_chain, _f1, _f, _f1, _f1, _i1, _i1)),
+        "states": (shapes.set_states, (_chain, _f1, _b, _f, _room, _f3)),
+        "squares": (integrals.integrate, (_chain, _f1, _f3, _rules, _f, _room)),
+        "normalise": (
+            integrals.normalise,
+            (_chain, _f1, _f3, _f4, Asked(_f2, _f1, True), _rules, _f, _room, _f2, _f3),
         ),
     },
     "forced": {
         "drive": (
             sweep.drive,
-            (_driven, Ends(_f2, _f2, True, True), _f2, new_room(1, 1, 1), _f5),
+            (_driven, Ends(_f2, _f2, True, True), _f2, new_forced_room(1, 1, 1), _f5),
         ),
     },
 }

@@ -34,7 +34,7 @@ class Form(NamedTuple):
     supports: bool
     """Whether supports between the ends are known."""
     shapes: bool
-    """Whether `riccati.lanes.shapes` knows its modes."""
+    """Whether `riccati.lanes.modal` knows its modes."""
     force_sign: float = 1.0
     """Of the law's own force in what is carried."""
 

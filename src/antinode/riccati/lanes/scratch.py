@@ -10,9 +10,21 @@ import numpy as np
 from antinode.riccati.arrays import Array
 
 from .structures import Kept
-from .workspace import ROWS, Chain, Levels, Search, new_chain, new_lanes, new_levels, new_search
+from .workspace import (
+    ROWS,
+    Chain,
+    Levels,
+    Room,
+    Search,
+    new_chain,
+    new_lanes,
+    new_levels,
+    new_room,
+    new_search,
+)
 
 _KEPT = 16  # sizes of each kind
+_MOST_KEPT = 4_000  # segments of shapes: some ten megabytes
 
 
 def new_table(pieces: int) -> Array:
@@ -41,6 +53,7 @@ class _Scratch(threading.local):
         self.chains: dict[tuple[int, ...], Kept[Chain]] = {}
         self.searches: dict[int, Kept[Search]] = {}
         self.beams: dict[tuple[int, int, int], Kept[Levels]] = {}
+        self.shapes = Kept(new_room(64))
 
     def table(self, pieces: int) -> Array:
         """Return a table of pieces with at least so many columns."""
@@ -55,6 +68,15 @@ class _Scratch(threading.local):
             _make_room(self.chains)
             self.chains[key] = Kept(new_chain(*key))
         return self.chains[key]
+
+    def room(self, segments: int) -> Kept[Room]:
+        """Return room for shapes along at least so many segments."""
+        if segments <= len(self.shapes.structure.own.stiffness):
+            return self.shapes
+        room = Kept(new_room(segments))
+        if segments <= _MOST_KEPT:
+            self.shapes = room
+        return room
 
     def search(self, roots: int) -> Kept[Search]:
         """Return what `search.find_roots` writes into."""

@@ -20,7 +20,8 @@ from antinode.riccati.roots import Certificate, Eigenvalue, FollowingRoots
 from .laws import FORMS
 from .library import library
 from .scratch import scratch
-from .workspace import NO_MORE, POINT, Task, new_chain, new_roots
+from .workspace import NO_MORE, NO_POINTS, POINT, Task, new_roots
+from .workspace import Chain as Own
 
 _NEAREST = 1e-9  # to zero, of the chain's own omega^2, where the sign is sure
 _TINY = 1e-14  # of it, which is as good as zero
@@ -59,6 +60,34 @@ def more_columns(chain: Chain) -> Array:
     return np.stack([chain.columns.get(name, none) for name in chain.law.more])
 
 
+def in_si(chain: Chain) -> Own:
+    """Return a chain as compiled code takes it, not scaled; its arrays are those of the chain."""
+    form, points = FORMS[chain.law], NO_POINTS
+    marks = np.full(len(chain.length) + 1, -1)
+    if chain.points:
+        marks[[point.node for point in chain.points]] = np.arange(len(chain.points))
+        points = np.array([form.point(point, 1.0, 1.0, 1.0) for point in chain.points])
+    force = chain.axial_force if chain.law.has_axial_force else np.zeros(len(chain.length))
+    return Own(
+        form.number if chain.is_plain else form.with_more,
+        form.ends[chain.left],
+        form.ends[chain.right],
+        length=_contiguous(chain.length),
+        mass=_contiguous(chain.mass),
+        stiffness=_contiguous(chain.stiffness),
+        force=_contiguous(force),
+        starts=np.empty(len(marks), np.int64),
+        marks=marks,
+        points=points,
+        more=more_columns(chain),
+        following=np.array(chain.following),
+    )
+
+
+def _contiguous(values: Array) -> Array:
+    return np.ascontiguousarray(values, dtype=float)
+
+
 class SingleChain:
     """One chain made dimensionless, ready for evaluations and root searches.
 
@@ -69,22 +98,20 @@ class SingleChain:
     """
 
     def __init__(self, chain: Chain) -> None:
-        form, n = FORMS[chain.law], len(chain.length)
+        form, given = FORMS[chain.law], in_si(chain)
         self.sign = form.sign(chain.left, chain.right)
-        ends = form.ends[chain.left], form.ends[chain.right]
-        number = form.number if chain.is_plain else form.with_more
-        own = new_chain(number, *ends, n, not chain.is_plain)
-        own.more[:] = more_columns(chain)
-        own.length[:], own.mass[:], own.stiffness[:] = chain.length, chain.mass, chain.stiffness
-        if chain.law.has_axial_force:
-            own.force[:] = chain.axial_force
+        own = given._replace(
+            length=given.length.copy(),
+            mass=given.mass.copy(),
+            stiffness=given.stiffness.copy(),
+            force=given.force.copy(),
+        )
         units = np.empty(4)
         library("roots").call("scale", own, units)
         self.unit, L, m0, stiffness = units.tolist()
-        own.following[:] = np.array(chain.following) * (L * L / stiffness)
+        own.following[:] *= L * L / stiffness
         self.follows = chain.follows
         if chain.points:
-            own.marks[[point.node for point in chain.points]] = np.arange(len(chain.points))
             rows = np.array([form.point(point, L, stiffness, m0) for point in chain.points])
             own = own._replace(points=rows.reshape(-1, POINT))
         self.chain = own

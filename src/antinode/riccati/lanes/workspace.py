@@ -51,6 +51,23 @@ CENTRAL, COUPLING = range(8, 10)
 """Among them m d, the inertia about the node, and that about the mass's own centre."""
 POINT = 10
 
+# Shapes: what stands flat, rows of lanes after rows, for every segment or node.
+SHEAR_OF, TURNING_OF, INERTIA_OF = (row * LANES for row in range(3))
+"""s, beta and mu of a segment."""
+COLUMNS, ENTRIES, STATES, BACK, SQUARES = (rows * LANES for rows in (3, 10, 4, 3, 5))
+"""Of a segment, its transfer matrix, a state, a change of basis, and squares."""
+
+# Rows of lanes that shapes are computed with.
+OLD, NEW, BETA, GAMMA, SUMS = (row * LANES for row in range(5))
+"""Terms of the series, its two factors, and four sums."""
+INVERSE, SCALE, PER_MODE, UNIT = (row * LANES for row in (8, 9, 10, 11))
+"""One over the unit of length, it, omega^2 of the mode, and four units of states."""
+NODE, LEAST, X_OF, Y_OF, STARTS = (row * LANES for row in range(15, 20))
+"""Where frames meet, how nearly, coefficients in a frame, and two to start with."""
+FORMS_OF, PER_UNIT = 21 * LANES, 29 * LANES
+"""Sums over a mode, by `riccati.lanes.modal.integrals`; and one over the units of states."""
+WORK = 33 * LANES
+
 # Columns of the samples of a search.
 AT, BELOW, VALUE, SHIFT, CARRIED_FROM = range(5)
 """omega^2, count, characteristic function and its power of two; from there on what was carried."""
@@ -106,10 +123,60 @@ class Scaled(NamedTuple):
     stiffness: Array
     """EI, as is alpha shape (n,)."""
     coupling: Array
-    shear: Array
-    """s, as are beta and mu shape (n, lanes)."""
-    turning: Array
-    inertia: Array
+    columns: Array
+    """s, beta and mu: rows of lanes for every segment, as all below."""
+
+
+class Room(NamedTuple):
+    """What shapes of eight modes are computed in, with room for more segments than are used.
+
+    By segment or node, each a flat row of lanes after another.
+    """
+
+    own: Scaled
+    U: Array
+    """Transfer matrices."""
+    left: Array
+    """Frames, as `right`, of every node; and what their changes of basis are undone by."""
+    right: Array
+    back_left: Array
+    back_right: Array
+    z: Array
+    """States of every node."""
+    squares: Array
+    here: Array
+    """States before and after a step through a matrix, and a frame."""
+    there: Array
+    step: Array
+    frame: Array
+    work: Array
+    """By the rows above."""
+    peaks: Array
+    """Heights, places and segments of the highest ones of each lane."""
+    largest: Array
+    """Displacement of each lane at nodes."""
+    factor: Array
+    """That normalises each lane."""
+
+
+class Rules(NamedTuple):
+    """Rules of Gauss: shares of a segment and weights, and phases up to which each does."""
+
+    limits: Array
+    numbers: Integers
+    shares: Array
+    weights: Array
+
+
+class Asked(NamedTuple):
+    """What normalised modes are asked for."""
+
+    beside: Array
+    """rho I and 1/kGA that the columns leave out, shape (2, n)."""
+    places: Array
+    """Ascending, from the left end."""
+    by_mass: bool
+    """Whether their modal mass is one, or else their largest displacement."""
 
 
 class Lanes(NamedTuple):
@@ -243,9 +310,29 @@ class Nodes(NamedTuple):
     scaled: Array
 
 
-def new_scaled(segments: int) -> Scaled:
-    """Return room for a chain in the units of modes."""
-    return Scaled(*np.empty((2, segments)), *np.empty((3, segments, LANES)))
+def new_room(segments: int) -> Room:
+    """Return room for shapes along so many segments."""
+    n, nodes = segments, segments + 1
+    left, right = np.empty((2, nodes, 2, STATES))
+    back_left, back_right = np.empty((2, nodes, BACK))
+    return Room(
+        own=Scaled(np.empty(n), np.empty(n), np.empty((n, COLUMNS))),
+        U=np.empty((n, ENTRIES)),
+        left=left,
+        right=right,
+        back_left=back_left,
+        back_right=back_right,
+        z=np.empty((nodes, STATES)),
+        squares=np.empty((n, SQUARES)),
+        here=np.empty(STATES),
+        there=np.empty(STATES),
+        step=np.empty(ENTRIES),
+        frame=np.empty((2, STATES)),
+        work=np.empty(WORK),
+        peaks=np.empty((LANES, 4, 3)),
+        largest=np.empty(LANES),
+        factor=np.empty(LANES),
+    )
 
 
 def new_lanes() -> Lanes:

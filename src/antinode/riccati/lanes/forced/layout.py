@@ -26,7 +26,7 @@ COLUMN = SIZE * PAIR
 OMEGA2, DASHPOT, UNIT, PER_UNIT = 0, PAIR, 2 * PAIR, 2 * PAIR + LANES
 LANE = 3 * PAIR
 
-# What one segment does: ten entries of U as `lanes.shapes` orders them, four of what a unit force
+# What one segment does: ten entries of U as `modal.segments` orders them, four of what a unit force
 # per length leaves behind it; and what the series leave for them.
 U00, U01, U02, U03, U10, U11, U12, U20, U21, U30 = (LANE + k * PAIR for k in range(10))
 D0, D1, D2, D3 = (LANE + k * PAIR for k in range(10, 14))

@@ -1,0 +1,1 @@
+"""Shapes of modes compiled: eight side by side."""
