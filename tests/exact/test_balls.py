@@ -137,7 +137,7 @@ def lossy(eta):
 
 
 def with_large_feedback():
-    K = np.array([[0, 1e4], [-1e4, 0]])
+    K = np.array([[0, 1e5], [-1e5, 0]])
     return uniform(CLAMPED).with_attachments(an.PointFeedback.of(1.0, K, abs(K) / 3))
 
 

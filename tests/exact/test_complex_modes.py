@@ -344,3 +344,23 @@ def test_large_loss_factors_in_closed_form(eta):
     found = [m.eigenvalue for m in an.solve_modes(beam, 3, damping="complex").modes]
     beta = [1.8751040687119611664, 4.6940911329741745764, 7.8547574382376125649]
     assert found == pytest.approx([1j * (1 + 1j * eta) ** 0.5 * b**2 for b in beta], rel=1e-12)
+
+
+@pytest.mark.parametrize("place", [0.2, 0.3])
+def test_a_node_at_a_weak_dashpot_is_proven(place):
+    """At a node of bending 4 and 6 a dashpot all but does nothing: a pole of g beside each zero."""
+    beam = an.Beam.from_stations([0, 1], 1.0, 1.0).with_attachments(
+        an.Spring(place, translational=3.0), an.Dashpot(0.5, translational=0.001)
+    )
+    result = an.solve_modes(beam, 6, families=["bending"])
+    assert result.certificate["kind"] == "winding"
+    creeping = result.mode("bending", 1)
+    assert creeping.kind == "overdamped"
+    # the body turns about the spring, and drags the dashpot: c d^2 / (J/d0^2 ...) by hand
+    assert creeping.eigenvalue_per_s.real == pytest.approx(creep(place), rel=1e-3)
+
+
+def creep(place):
+    """s of a slow turn: K (1, psi) = 0 about the spring, C (0.5 - place)^2 against J about it."""
+    d = 0.5 - place
+    return -0.001 * d**2 / (1 / 12 + d**2)

@@ -7,6 +7,7 @@ import pytest
 import scipy.linalg
 
 import antinode as an
+from antinode.study.along.along import stability_along
 from cli_run import run
 from forced_beam import HpResponse
 
@@ -18,13 +19,19 @@ def starter(tmp_path_factory):
     return folder / "case.toml"
 
 
-def case_of(path, **model):
+def case_of(path, speed=None, **model):
     wanted = {"theory": "euler_bernoulli", "hydrodynamic_stiffness": "tangent"} | model
-    return an.load_case(path, [f"model.{key}={value}" for key, value in wanted.items()])
+    given = [f"model.{key}={value}" for key, value in wanted.items()]
+    return an.load_case(path, [*given, *([f"condition.speed={speed}"] if speed else [])])
 
 
 def dense(case):
     """Eigenvalues of hp matrices with every tangent and end force put in by hand, im >= 0."""
+    return lowest(*matrices(case))
+
+
+def matrices(case):
+    """K, C and M of hp elements with every tangent and end force put in by hand."""
     loads = case.loads
     beam = replace(case.beam(), attachments=(), ends=an.Ends())
     beam = beam.with_breakpoints([t.x for t in case.tangents])
@@ -38,7 +45,7 @@ def dense(case):
     # the disk's pressure turns with the nose and pushes up, the thrust with the tail and down
     K[mesh.dof(0.0, 0), mesh.dof(0.0, 1)] -= F_x0 * np.cos(2 * loads.cavity.alpha)
     K[mesh.dof(beam.x[-1], 0), mesh.dof(beam.x[-1], 1)] += case.model.follow[1] * loads.thrust
-    return lowest(K, C, M)
+    return K, C, M
 
 
 def lowest(K, C, M, shift=20.0):
@@ -88,3 +95,35 @@ def test_it_stands_first_among_what_is_left_out_until_it_is_solved(starter):
     assert plain["not_modelled"][0].startswith("hydrodynamic stiffness")
     assert not any("hydrodynamic" in words for words in solved["not_modelled"])
     assert "damping" not in solved["not_modelled"]
+
+
+# a pair that is about to meet beside s = 0; two real ones there; a pole of g next to a real one;
+# the contact gone, so that a translation rests
+SPEEDS = [68.80147, 68.8015, 72.0, 95.0]
+
+
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_lists_are_proven_beside_the_crossing_of_zero(starter, speed):
+    case = case_of(starter, speed)
+    result = an.solve_modes(case, 3, families=["bending"], tolerance=1e-3)
+    assert result.certificate["kind"] == "winding"
+    exact = dense(case)
+    for mode in (m for m in result.modes if m.eigenvalue_per_s):
+        s = mode.eigenvalue_per_s
+        off = 2e-7 * abs(exact[5]) * max(1.0, 1 / abs(s))  # of the elements
+        assert np.min(np.abs(exact - s)) <= mode.error_per_s + off
+        assert mode.error_per_s <= 2e-3 * abs(s)
+
+
+def test_a_real_root_passes_zero_along_speed(starter):
+    """A pair meets on the real axis, and one of the two passes s = 0: K is singular there."""
+    file = case_of(starter)
+    found = stability_along(file, "condition.speed", 68.0, 71.0, points=2)
+    (change,) = found.critical
+    assert (change.kind, change.change, change.modes) == ("divergence", "lost", ("bending 2",))
+    assert change.proven
+    assert not found.warnings
+    assert change.bracket[1] - change.bracket[0] < 1e-8
+    K = [matrices(case_of(starter, change.value + d))[0] for d in (-1e-5, 1e-5)]
+    signs = [np.linalg.slogdet(matrix)[0] for matrix in K]
+    assert signs[0] == -signs[1]

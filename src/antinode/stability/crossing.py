@@ -113,13 +113,13 @@ def kind_of(before: States, after: States) -> Change | None:
 def measure(change: Change, state: States) -> float:
     """Return what changes its sign with the status: positive before, negative after.
 
-    Of a divergence omega^2; of two modes that meet the square of the distance of their s^2; of a
+    Of a divergence omega^2, or s times the next real one; of two modes that meet the square of the distance of their s^2; of a
     mode that is damped its growth.
     """
     grown = state.status == change.more.status
     sign = 1.0 if state.status == change.before.status else -1.0
     if change.kind == "divergence":
-        return sign * _near_zero(state, grown)
+        return sign * _near_zero(change, state, grown)
     if not change.conserves:
         return sign * _growth(change, state)
     if grown:
@@ -128,12 +128,21 @@ def measure(change: Change, state: States) -> float:
     return sign * (high.omega2 - low.omega2) ** 2
 
 
-def _near_zero(state: States, grown: bool) -> float:
-    """Return abs(s^2) of the motion that has just begun to diverge, or is about to."""
-    if grown:
-        return min(r.s.real**2 for r in state.roots if r.kind == "divergent")
-    still = [abs(r.s) ** 2 for r in state.roots if r.kind != "divergent"]
-    return min(still, default=1.0)
+def _near_zero(change: Change, state: States, grown: bool) -> float:
+    """Return what vanishes with the motion that has just begun to diverge, or is about to.
+
+    ``s^2`` where it comes from two that oscillate; where it is damped, its s times that of the
+    real one that it has met: the two together move smoothly, before they meet as a pair as well.
+    """
+    rows = [r for r in state.roots if (r.kind == "divergent") == grown]
+    if not rows:
+        return 1.0
+    own = min(rows, key=lambda r: abs(r.s))
+    if own.s.imag:
+        return abs(own.s) ** 2
+    others = [abs(r.s) for r in state.roots if r is not own and r.s.imag == 0]
+    damped = any(r.kind == "overdamped" for r in (*change.before.roots, *change.after.roots))
+    return abs(own.s) * (min(others, default=1.0) if damped else abs(own.s))
 
 
 def _growth(change: Change, state: States) -> float:

@@ -36,6 +36,7 @@ _TOLERANCE = 1e-10
 _SLOW = 4  # turns in which a bracket must have halved
 _MOST = 100
 _BESIDE = 0.45  # of the size of a bracket: where its ends are put
+_HIDDEN = 1e-3  # relative width to which growth is told from rounding
 _ERRORS = 6.0  # of the growth, that the growth changes by in a bracket, at the least
 
 
@@ -90,10 +91,9 @@ class _Bracket:
 
     @property
     def root(self) -> float:
-        """Where a secant through its ends crosses zero; else its middle."""
-        if self.slope > 0:
-            return self.high - self.above.value / self.slope
-        return (self.low + self.high) / 2
+        """Where a secant through its ends crosses zero, inside; else its middle."""
+        root = self.high - self.above.value / self.slope if self.slope > 0 else math.nan
+        return root if self.low <= root <= self.high else (self.low + self.high) / 2
 
     @property
     def frequency_hz(self) -> float:
@@ -152,7 +152,8 @@ def _closed(
     """Shrink a bracket by secants through the last two places, put just beyond the root.
 
     The one of its ends that is farther off is moved; it halves where it does not shrink, or a
-    secant leaves it. It ends where the growth at its ends is some errors of the growth.
+    secant leaves it. It ends where the growth at its ends is some errors of the growth. Where
+    rounding hides all growth below its upper end, that end alone is closed in on.
 
     Parameters
     ----------
@@ -167,7 +168,7 @@ def _closed(
     """
     sizes: list[float] = []
     last: _Growth | None = None
-    size = width * bracket.high
+    size, hidden = width * bracket.high, math.nan
     for _ in range(_MOST):
         sizes.append(bracket.high - bracket.low)
         if sizes[-1] <= size or bracket.high < least:
@@ -176,6 +177,8 @@ def _closed(
         if stuck or not bracket.low < place < bracket.high:
             place = (bracket.low + bracket.high) / 2
         here = solve(place)
+        if not (here.grows or here.decays):
+            hidden = here.factor
         bracket = bracket.narrowed(here)
         slope = slope if last is None else _slope(last, here)
         size, last = width * bracket.high, here
@@ -185,6 +188,21 @@ def _closed(
             root = here.factor - here.value / slope
             up = bracket.high - root > root - bracket.low
             place = root + (_BESIDE if up else -_BESIDE) * size
+    return _past_rounding(solve, bracket, hidden)
+
+
+def _past_rounding(
+    solve: Callable[[float], _Growth], bracket: _Bracket, hidden: float
+) -> _Bracket:
+    """Return a bracket with a lower upper end: from a place on where rounding hides the growth."""
+    if not bracket.low < hidden < bracket.high:
+        return bracket
+    while bracket.high - hidden > _HIDDEN * bracket.high:
+        here = solve((hidden + bracket.high) / 2)
+        if here.grows:
+            bracket = bracket.narrowed(here)
+        else:
+            hidden = here.factor
     return bracket
 
 

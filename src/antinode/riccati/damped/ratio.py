@@ -30,6 +30,7 @@ from antinode.riccati.forced import Lanes, Loads, forced_states
 from .chain import Damped
 
 _BESIDE = 1e-3  # of the reach: nearer to the axis S is taken from beside
+_LEAST = 1e-8  # of S, scaled: what rounding may hide of a combination
 
 
 class RatioSamples(NamedTuple):
@@ -174,8 +175,15 @@ class Ratio:
         T = ((at[:, None] * G).imag + sigma * G.imag) / at.imag[:, None]
         return np.asarray(np.maximum(T, 0) * (1 + _BESIDE) ** 2)
 
-    def samples(self, s: Complex) -> RatioSamples:
-        """Return g, bounded."""
+    def samples(self, s: Complex, *, turned: bool = False) -> RatioSamples:
+        """Return g, bounded.
+
+        Parameters
+        ----------
+        s : array of complex
+        turned : bool
+            Whether the displacements are combined to those in which S is diagonal.
+        """
         omega2, acting = -s * s, self.damped.acting
         reach = np.min(np.abs(omega2[:, None] - self.poles), axis=1) * (1 - 1e-9)
         beside = np.abs(omega2.imag) < _BESIDE * reach
@@ -183,19 +191,22 @@ class Ratio:
         shifted = (omega2 + 1j * sign * _BESIDE * reach)[beside]
         G = self.receptances(np.concatenate([omega2, shifted]))
         G, there = G[: len(s)], G[len(s) :]
-        diagonal = np.diagonal(G, axis1=-2, axis2=-1).imag.copy()
-        off = omega2.imag.copy()
-        diagonal[beside] = np.diagonal(there, axis1=-2, axis2=-1).imag * (1 + _BESIDE) ** 2
+        imaginary, off = G.imag.copy(), omega2.imag.copy()
+        imaginary[beside] = there.imag * (1 + _BESIDE) ** 2
         off[beside] = shifted.imag
-        size = np.sqrt(np.maximum(np.abs(diagonal / off[:, None]), 1e-300))
-        scaled = G / (size[:, :, None] * size[:, None, :])
-        across = size[:, :, None] * size[:, None, :]
-        Z = (acting.K + s[:, None, None] * acting.C) * across
+        with np.errstate(all="ignore"):
+            S = imaginary / off[:, None, None]
+        basis = _combinations(S, turned=turned)
+        size = np.abs(np.diagonal(basis, axis1=-2, axis2=-1))
+        back = np.swapaxes(basis, -1, -2)
+        inverse = np.linalg.inv(basis)
+        scaled = inverse @ G @ np.swapaxes(inverse, -1, -2)
+        Z = back @ (acting.K + s[:, None, None] * acting.C) @ basis
         A = np.eye(len(acting.node)) + scaled @ Z
         with np.errstate(all="ignore"):
             inverse = _inverse(A)
             value, through = np.linalg.det(A), Z @ inverse
-        C = np.abs(acting.C) * across
+        C = np.abs(back @ acting.C @ basis)
         return RatioSamples(
             s,
             value,
@@ -208,6 +219,21 @@ class Ratio:
             through,
             size,
         )
+
+
+def _combinations(S: Array, *, turned: bool) -> Array:
+    """Return B with S <= B B^T, shape (k, r, r): in its columns S is at most 1, and diagonal.
+
+    Beside a pole one combination of the displacements moves much more than all others; a bound
+    that takes each displacement by itself would count it as often as there are displacements.
+    """
+    size = np.sqrt(np.maximum(np.abs(np.diagonal(S, axis1=-2, axis2=-1)), 1e-300))
+    number = S.shape[-1]
+    if number < 2 or not turned or not np.all(np.isfinite(S)):
+        return np.asarray(size[:, :, None] * np.eye(number))
+    share, Q = np.linalg.eigh(S / (size[:, :, None] * size[:, None, :]))
+    share = np.maximum(share, 0.0) + _LEAST * number
+    return np.asarray(size[:, :, None] * Q * np.sqrt(share)[:, None, :])
 
 
 def _largest_share(omega2: Complex, poles: Array, sigma: float, moved: Array) -> Array:

@@ -22,7 +22,7 @@ from antinode.riccati.roots import CountingError, Eigenvalue
 from antinode.riccati.winding import Path, follow
 
 from .chain import Damped
-from .ratio import Ratio
+from .ratio import Ratio, RatioSamples
 from .search import Search, left_over
 
 BaseEigenvalues = Callable[[int], list[Eigenvalue]]
@@ -33,6 +33,7 @@ _SHARES = 0.5, 0.35, 0.65  # of a gap where it crosses the axis
 _MOST = 1500  # samples on half a circle
 _WIDTH = 1e-11  # of a circle around an eigenvalue
 _FLOOR = 1e-14  # the same of the scale of s
+_NEAR_ZERO = 1e-11  # of that scale: where secants near s = 0 end, and roots are one
 _TRIES = (
     (1, 16),
     (1, 64),
@@ -48,6 +49,7 @@ _TRIES_REAL = 6  # of them, to tell a real one
 """Circles about an eigenvalue: over the first radius, and with how many corners."""
 _DISC = 0.2  # of the distance to the next pole of g: where its tangent is bounded
 _STEP = 1e-4  # of that disc, between places that tell the slope
+_STEPS = 1e-4, 1e-5, 1e-6, 1e-7  # the same where the bound on the disc is wide
 _NOISE = 10.0  # times what is seen of rounding
 _WIDE = 1e-2  # the same step for curvature
 _PAIRS = 1e-11 * 10 ** np.arange(0, 8.5, 0.5)  # of s: circles about two that all but meet
@@ -251,7 +253,8 @@ class Finder:
 
     def _within(self, circle: Circle, path: Path) -> ComplexRoots:
         """Find and enclose the eigenvalues within a circle."""
-        search = Search(self.damped.characteristic, self.at_zero, circle.radius)
+        floor = _NEAR_ZERO * self.scale
+        search = Search(self.damped.characteristic, self.at_zero, circle.radius, floor=floor)
         known: list[complex] = []
         steps: list[float] = []
 
@@ -261,7 +264,7 @@ class Finder:
         def take(found: Complex, step: Array, apart: float) -> None:
             for s, size in zip(self._made_real(found, step), step, strict=True):
                 new = complex(s)
-                near = any(abs(new - z) <= apart * abs(z) for z in known)
+                near = apart > 0 and any(abs(new - z) <= apart * abs(z) + floor for z in known)
                 inside = self._is_inside(new, circle)
                 if np.isfinite(size) and inside and not near and missing() > 0:
                     known.append(new)
@@ -281,7 +284,7 @@ class Finder:
             at, step = search.run(np.array(known), [])  # polished, without what was divided out
             at = self._made_real(at, step)
             for k, (s, size) in enumerate(zip(at, step, strict=True)):
-                if np.isfinite(size) and abs(s - known[k]) < 1e-7 * abs(known[k]):
+                if np.isfinite(size) and abs(s - known[k]) < 1e-7 * abs(known[k]) + floor:
                     known[k], steps[k] = complex(s), float(size)
         return ComplexRoots(self._enclosed(known, steps), circle)
 
@@ -370,23 +373,43 @@ class Finder:
     def _holds_one(self, s: Complex, radius: Array) -> tuple[Numbers, Array]:
         """Tell about which places the tangent of g alone decides that one zero is near (Rouche).
 
-        Returns also the radii for which it does.
+        Returns also the radii for which it does: those given where they do, else as much as
+        rounding asks for. Where that fails the displacements are combined, at more cost.
         """
-        here = self.ratio.samples(s)
-        disc = _DISC * here.reach / (2 * np.abs(s))
-        step = _STEP * disc
-        there = self.ratio.samples(np.concatenate([s + step, s - step])).value
-        proven, used = np.zeros(len(s), bool), radius.copy()
-        noise = self._noise(s)
-        with np.errstate(all="ignore"):
-            slope = np.abs(there[: len(s)] - there[len(s) :]) / (2 * step)
-            slope = slope - here.spread(disc) / disc * _STEP**2 / (1 - _STEP**2)
-            for growth in _TANGENTS:
-                trial = growth * radius
-                off = np.abs(here.value) + noise + here.remainder(trial, disc)
-                good = ~proven & (off < 0.5 * slope * trial) & (trial < disc)
-                proven[good], used[good] = True, trial[good]
+        proven, used, noise = np.zeros(len(s), bool), radius.copy(), self._noise(s)
+        for turned, steps in ((False, _STEPS[:1]), (True, _STEPS)):
+            open_ = np.flatnonzero(~proven)
+            if not len(open_):
+                break
+            here = self.ratio.samples(s[open_], turned=turned)
+            disc, off = _disc(here), np.abs(here.value) + noise[open_]
+            slope = np.maximum(self._least_slope(here, disc, noise[open_], steps), 0.0)
+            with np.errstate(all="ignore"):
+                trials = [growth * radius[open_] for growth in _TANGENTS]
+                for trial in (*trials, 4 * off / slope):
+                    most = off + here.remainder(trial, disc)
+                    good = ~proven[open_] & (most < 0.5 * slope * trial) & (trial < disc)
+                    proven[open_[good]], used[open_[good]] = True, trial[good]
         return proven, used
+
+    def _least_slope(
+        self, here: RatioSamples, disc: Array, noise: Array, shares: tuple[float, ...]
+    ) -> Array:
+        """Return what abs(dg/ds) is at the least: by differences, each less what it may err by.
+
+        A short step errs by rounding, a long one by the third derivative, for which the bound on
+        the disc leaves much room where many forces act at once.
+        """
+        s, most = here.at, here.spread(disc)
+        least = np.full(len(s), -np.inf)
+        for share in shares:
+            step = share * disc
+            there = self.ratio.samples(np.concatenate([s + step, s - step])).value
+            with np.errstate(all="ignore"):
+                slope = np.abs(there[: len(s)] - there[len(s) :]) / (2 * step)
+                slope = slope - most / disc * share**2 / (1 - share**2) - noise / step
+            least = np.fmax(least, slope)
+        return least
 
     def _noise(self, s: Complex) -> Array:
         """Estimate how far rounding moves g: by what it leaves of straight lines very near."""
@@ -404,7 +427,7 @@ class Finder:
         """
         c = np.array([centre])
         here = self.ratio.samples(c)
-        disc = _DISC * here.reach / (2 * np.abs(c))
+        disc = _disc(here)
         h, small = _WIDE * disc, _STEP * disc
         there = self.ratio.samples(np.concatenate([c + h, c - h, c + small, c - small])).value
         radii, noise = _PAIRS * abs(centre), self._noise(c)
@@ -428,7 +451,8 @@ class Finder:
         samples = self.ratio.samples(places.ravel())
         half = np.repeat(outer * math.sin(math.pi / corners), corners)
         with np.errstate(all="ignore"):
-            off = samples.spread(half) + np.repeat(self._noise(centre), corners)
+            beside = np.max(self._noise(places[:, :: corners // 4].ravel()).reshape(-1, 4), axis=1)
+            off = samples.spread(half) + np.repeat(beside, corners)
             margin = 1 - off / np.maximum(np.abs(samples.value), 1e-300)
         value = samples.value.reshape(places.shape)
         turns = np.sum(np.angle(np.roll(value, -1, axis=1) / value), axis=1) / (2 * math.pi)
@@ -439,6 +463,12 @@ class Finder:
         sure = np.all(margin.reshape(places.shape) > 0.02, axis=1) & (inside == outside)
         sure &= np.abs(turns - np.round(turns)) < 1e-6
         return np.round(np.nan_to_num(turns)).astype(int) + inside, sure
+
+
+def _disc(here: RatioSamples) -> Array:
+    """Return radii about places within which g is bounded: -s^2 keeps off its poles there."""
+    size, room = np.abs(here.at), _DISC * here.reach
+    return np.asarray(room / (size + np.sqrt(size * size + room)))
 
 
 def _sums(path: Path, of_base: Numbers, rho: float, number: int, most: int) -> Complex:

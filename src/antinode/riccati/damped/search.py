@@ -33,10 +33,20 @@ class Search:
         Size of s [1/s] where zeros are looked for.
     mirrored : bool
         Whether the conjugate of every zero is one.
+    floor : float
+        Length of a step that rounding may leave near s = 0 [1/s].
     """
 
-    def __init__(self, function: Function, zeros: int, unit: float, mirrored: bool = True) -> None:
+    def __init__(
+        self,
+        function: Function,
+        zeros: int,
+        unit: float,
+        mirrored: bool = True,
+        floor: float = 0.0,
+    ) -> None:
         self.function, self.zeros, self.unit, self.mirrored = function, zeros, unit, mirrored
+        self.floor = floor
 
     def deflated(self, s: Complex, known: list[complex]) -> tuple[Complex, Array]:
         """Return the function with what is known divided out."""
@@ -77,7 +87,8 @@ class Search:
                 y[:, open_] = np.stack([y[1, open_], y[2, open_], at])
                 size[:, open_] = np.stack([size[1, open_], size[2, open_], logarithm])
                 settled = (moved <= _SMALL * np.abs(new[open_])) | (at == 0)
-                step[open_] = np.where(moved < 1e-9 * np.abs(new[open_]), moved, np.inf)
+                near = moved < 1e-9 * np.abs(new[open_]) + self.floor
+                step[open_] = np.where(near, moved, np.inf)
                 done[open_[settled]] = True
         return x[2], step
 
