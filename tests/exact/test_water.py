@@ -7,7 +7,8 @@ import pytest
 import scipy.linalg
 
 import antinode as an
-from antinode.study.along.along import stability_along
+from antinode.show.water import bending_off_contact, contact_ends
+from antinode.stability.along import follow
 from cli_run import run
 from forced_beam import HpResponse
 
@@ -30,14 +31,14 @@ def dense(case):
     return lowest(*matrices(case))
 
 
-def matrices(case):
-    """K, C and M of hp elements with every tangent and end force put in by hand."""
+def matrices(case, off=()):
+    """K, C and M of hp elements with every tangent and end force put in by hand; some are off."""
     loads = case.loads
     beam = replace(case.beam(), attachments=(), ends=an.Ends())
     beam = beam.with_breakpoints([t.x for t in case.tangents])
     mesh = HpResponse(beam, 0.0, count=7, degree=7)
     K, C, M = mesh.K.real.copy(), mesh.C.copy(), mesh.M
-    for t in case.tangents:
+    for t in (t for t in case.tangents if t.name not in off):
         own = [mesh.dof(t.x, 0), mesh.dof(t.x, 1)]
         K[np.ix_(own, own)] += t.stiffness
         C[np.ix_(own, own)] += t.damping
@@ -74,6 +75,25 @@ def test_the_starter_on_its_water(starter, end_force):
         assert abs(s - nearest) <= 2e-7 * abs(exact[5])
     below = exact[np.abs(exact) < 0.99 * abs(result.modes[-1].eigenvalue_per_s)]
     assert len(below) == len(result.modes) - 1
+
+
+def test_contact_on_and_off_and_where_it_ends(starter):
+    case = case_of(starter, end_force="follows_body")
+    result = an.solve_modes(case, 3, families=["bending"])
+    exact = lowest(*matrices(case, off=["planing"]))
+    found = bending_off_contact(case, result)
+    hertz = np.sort(exact.imag[exact.imag > 1e-3])[:3] / (2 * np.pi)
+    assert [m.frequency_hz for m in found[:3]] == pytest.approx(hertz, rel=1e-6)
+    planing = next(t for t in case.tangents if t.name == "planing")
+    for end in contact_ends(case, result):
+        mode = next(m for m in result.modes if m.name == end.name)
+        # at this amplitude of the tail the wetted depth of the steady state is just undone
+        assert end.amplitude == case.loads.planing.h * case.vehicle.radius_at(np.array([6.0]))[0]
+        assert end.acceleration == pytest.approx(
+            (2 * np.pi * mode.frequency_hz) ** 2 * planing.room
+        )
+        deflection = np.abs(mode.phasors[:, 0])
+        assert end.largest / end.amplitude == pytest.approx(deflection.max() / deflection[-1])
 
 
 def test_a_spring_at_the_tail_alone(starter):
@@ -115,15 +135,30 @@ def test_lists_are_proven_beside_the_crossing_of_zero(starter, speed):
         assert mode.error_per_s <= 2e-3 * abs(s)
 
 
-def test_a_real_root_passes_zero_along_speed(starter):
-    """A pair meets on the real axis, and one of the two passes s = 0: K is singular there."""
-    file = case_of(starter)
-    found = stability_along(file, "condition.speed", 68.0, 71.0, points=2)
+def on_two_forces(following):
+    """A free beam on what is like a fin and a planing tail, both damped."""
+    fin = an.PointFeedback.of(0.2, np.diag([2.0, 0.0]), np.diag([0.05, 0.0]))
+    tail = np.array([[3.0, following], [0.0, 0.0]])
+    planing = an.PointFeedback.of(1.0, tail, np.array([[0.3, 0.0], [0.0, 0.0]]))
+    return an.Beam.from_stations([0, 1], 1.0, 1.0).with_attachments(fin, planing)
+
+
+def test_a_real_root_passes_zero():
+    """A pair meets on the real axis, and one of the two passes s = 0.
+
+    At rest both forces vanish, whatever the beam's stiffness: Y = 0 at 0.2, 3 Y + following psi at
+    1, so that following = -3 * 0.8.
+    """
+    found = follow(on_two_forces, -4.0, -1.0, points=2)
     (change,) = found.critical
-    assert (change.kind, change.change, change.modes) == ("divergence", "lost", ("bending 2",))
+    assert (change.kind, change.change) == ("divergence", "regained")
     assert change.proven
     assert not found.warnings
+    assert change.value == pytest.approx(-2.4, abs=1e-9)
+    assert change.bracket[0] < -2.4 < change.bracket[1]
     assert change.bracket[1] - change.bracket[0] < 1e-8
-    K = [matrices(case_of(starter, change.value + d))[0] for d in (-1e-5, 1e-5)]
-    signs = [np.linalg.slogdet(matrix)[0] for matrix in K]
-    assert signs[0] == -signs[1]
+    beside = [
+        an.solve_modes(on_two_forces(v), 2, families=["bending"]) for v in (-2.39, -2.4 + 1e-7)
+    ]
+    assert all(result.certificate["kind"] == "winding" for result in beside)
+    assert beside[1].modes[1].eigenvalue_per_s.real == pytest.approx(0.0, abs=1e-5)

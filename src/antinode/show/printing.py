@@ -17,7 +17,6 @@ from rich.table import Table
 from rich.text import Text
 
 from antinode.beam.attachments import name_of
-from antinode.beam.families import BENDING
 from antinode.modes.result import ModalResult, Mode, not_modelled
 from antinode.text import counted, one_line
 
@@ -320,7 +319,9 @@ def show_water(out: Console, case: Case, result: ModalResult) -> None:
     """Print what the water does as the body vibrates, device by device, and what that changes."""
     if not case.tangents:
         return
-    from .water import bending_without, water_notes
+    from antinode.response.units import STANDARD_GRAVITY
+
+    from .water import contact_ends, side_by_side, water_notes
 
     headings = "spring [kN/m]", "dashpot [N s/m]", "turns with it [kN/rad]", "contact to [mm]"
     table = new_table("the water at", "x [m]", *headings)
@@ -329,12 +330,15 @@ def show_water(out: Console, case: Case, result: ModalResult) -> None:
         room = f"{t.room * 1e3:.3g}" if math.isfinite(t.room) else ""
         _row(table, t.name, *(f"{value + 0.0:.4g}" for value in numbers), room)
     out.print(table)
-    solved = [m for m in result.family(BENDING) if m.number and m.frequency_hz > 0]
-    rows = {"with the water (this file)": solved, "without": bending_without(case, result)}
+    rows = side_by_side(case, result)
     shown = min(*map(len, rows.values()), _MOST_SHOWN)
     table = new_table("bending f [Hz] that oscillate", *map(str, range(1, shown + 1)))
     for name, found in rows.items():
         _row(table, name, *(f"{m.frequency_hz:.4f}" for m in found[:shown]))
+    if ends := contact_ends(case, result)[:shown]:
+        g = (f"{end.acceleration / STANDARD_GRAVITY:.3g}" for end in ends)
+        _row(table, "contact ends, at the tail [g]", *g)
+        _row(table, "  largest along the body [mm]", *(f"{e.largest * 1e3:.3g}" for e in ends))
     out.print(table)
     for line in water_notes(case, result):
         out.print(f"[dim]{line}[/dim]", highlight=False)

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from antinode.arrays import Array
+from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.modes.result import ModalResult, Mode, null
 from antinode.modes.solve import solve_modes
-from antinode.vehicle.case import Case
+from antinode.response.units import STANDARD_GRAVITY
+from antinode.vehicle.case import Case, vehicle_beam
 from antinode.vehicle.hydrodynamics.added_mass import AddedMass
 from antinode.vehicle.tangent import Tangent
 
@@ -30,7 +36,7 @@ def water_dict(case: Case, result: ModalResult) -> dict[str, Any]:
         kind = case.model.hydrodynamic_stiffness
         return {"hydrodynamic_stiffness": kind, "tangents": [], **more}
     modes = [m for m in result.family(BENDING) if m.number]
-    without = bending_without(case, result)
+    without, off = bending_without(case, result), bending_off_contact(case, result)
     return {
         "hydrodynamic_stiffness": case.model.hydrodynamic_stiffness,
         "tangents": [_tangent_dict(t) for t in case.tangents],
@@ -39,17 +45,102 @@ def water_dict(case: Case, result: ModalResult) -> dict[str, Any]:
             "frequencies_hz": [null(m.frequency_hz) for m in without],
             "error_hz": [null(m.error_hz) for m in without],
         },
+        "contact_off": {
+            "frequencies_hz": [null(m.frequency_hz) for m in off],
+            "error_hz": [null(m.error_hz) for m in off],
+        },
+        "contact_ends": [end.to_dict() for end in contact_ends(case, result)],
         **more,
     }
 
 
 def bending_without(case: Case, result: ModalResult) -> list[Mode]:
-    """Return as many elastic bending modes of the same case without the water's stiffness."""
+    """Return the bending modes of the same case that oscillate without the water's stiffness."""
     model = case.model.model_copy(update={"hydrodynamic_stiffness": "none"})
+    return _oscillating(case.model_copy(update={"model": model}), result)
+
+
+def bending_off_contact(case: Case, result: ModalResult) -> list[Mode]:
+    """Return the bending modes that oscillate with one-sided contacts off, all else as it is.
+
+    As long as the body vibrates off the cavity's wall these are its frequencies; none where there
+    is no such contact.
+    """
+    acting = tuple(t for t in case.tangents if not math.isfinite(t.room))
+    if len(acting) == len(case.tangents):
+        return []
+    return _oscillating(vehicle_beam(case, acting), result)
+
+
+def side_by_side(case: Case, result: ModalResult) -> dict[str, list[Mode]]:
+    """Return the bending modes that oscillate by what of the water acts, as the file says first."""
+    own = [m for m in result.family(BENDING) if m.number and m.frequency_hz > 0]
+    off = bending_off_contact(case, result)
+    rows = {"with the water (this file)": own}
+    if off:
+        rows = {"with the water, contact on (this file)": own, "contact off": off}
+    return rows | {"without": bending_without(case, result)}
+
+
+def _oscillating(problem: Beam | Case, result: ModalResult) -> list[Mode]:
+    """Return as many bending modes of a problem as a result has, those that oscillate."""
     number = sum(m.number > 0 for m in result.family(BENDING))
-    plain = case.model_copy(update={"model": model})
-    found = solve_modes(plain, number, tolerance=result.tolerance, families=[BENDING])
-    return [m for m in found.family(BENDING) if m.number][:number]
+    found = solve_modes(problem, number, tolerance=result.tolerance, families=[BENDING])
+    return [m for m in found.family(BENDING) if m.number and m.frequency_hz > 0][:number]
+
+
+@dataclass(frozen=True)
+class ContactEnd:
+    """Amplitudes at which a mode takes the body off a one-sided contact.
+
+    Attributes
+    ----------
+    name : str
+        Of the mode.
+    frequency_hz : float
+    amplitude : float
+        Where the body touches [m].
+    acceleration : float
+        There, omega^2 times it [m/s^2].
+    largest : float
+        The largest amplitude along the body then [m]; infinite at a node.
+    """
+
+    name: str
+    frequency_hz: float
+    amplitude: float
+    acceleration: float
+    largest: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as plain numbers for JSON."""
+        return {
+            "mode": self.name,
+            "frequency_hz": self.frequency_hz,
+            "amplitude_m": self.amplitude,
+            "acceleration_m_per_s2": self.acceleration,
+            "acceleration_g": self.acceleration / STANDARD_GRAVITY,
+            "largest_amplitude_m": null(self.largest),
+        }
+
+
+def contact_ends(case: Case, result: ModalResult) -> list[ContactEnd]:
+    """Return by mode the amplitudes at which the nearest one-sided contact ends; none without."""
+    touching = [t for t in case.tangents if math.isfinite(t.room)]
+    if not touching:
+        return []
+    contact = min(touching, key=lambda t: t.room)
+    modes = [m for m in result.family(BENDING) if m.number and m.frequency_hz > 0]
+    return [_contact_end(contact, mode, result.x) for mode in modes]
+
+
+def _contact_end(contact: Tangent, mode: Mode, x: Array) -> ContactEnd:
+    Y = mode.states[:, 0] if mode.phasors is None else mode.phasors[:, 0]
+    there = abs(np.interp(contact.touches, x, Y.real) + 1j * np.interp(contact.touches, x, Y.imag))
+    omega = 2 * math.pi * mode.frequency_hz
+    largest = float(np.max(np.abs(Y)) / there) * contact.room if there else math.inf
+    acceleration = omega**2 * contact.room
+    return ContactEnd(mode.name, mode.frequency_hz, contact.room, acceleration, largest)
 
 
 def _added_dict(part: AddedMass) -> dict[str, Any]:
@@ -82,6 +173,7 @@ def _tangent_dict(tangent: Tangent) -> dict[str, Any]:
         "stiffness": tangent.stiffness.tolist(),
         "damping": tangent.damping.tolist(),
         "contact_ends_at_m": null(tangent.room),
+        "contact_x_m": null(tangent.touches),
     }
 
 
@@ -94,7 +186,7 @@ def water_notes(case: Case, result: ModalResult) -> Sequence[str]:
     lines = [f"f L/V of bending {told}; the tangents hold up to some {QUASI_STEADY:g}{beyond}."]
     lines += [
         f"{t.name.capitalize()}: one-sided; its tangent ends at an amplitude of {t.room * 1e3:.3g} "
-        f"mm at x = {t.x:.4g} m."
+        f"mm at x = {t.touches:.4g} m."
         for t in case.tangents
         if math.isfinite(t.room)
     ]

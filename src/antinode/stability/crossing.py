@@ -113,8 +113,8 @@ def kind_of(before: States, after: States) -> Change | None:
 def measure(change: Change, state: States) -> float:
     """Return what changes its sign with the status: positive before, negative after.
 
-    Of a divergence omega^2, or s times the next real one; of two modes that meet the square of the distance of their s^2; of a
-    mode that is damped its growth.
+    Of a divergence omega^2, or s times the next real one; of two modes that meet the square of the
+    distance of their s^2; of a mode that is damped its growth.
     """
     grown = state.status == change.more.status
     sign = 1.0 if state.status == change.before.status else -1.0

@@ -191,9 +191,7 @@ def _closed(
     return _past_rounding(solve, bracket, hidden)
 
 
-def _past_rounding(
-    solve: Callable[[float], _Growth], bracket: _Bracket, hidden: float
-) -> _Bracket:
+def _past_rounding(solve: Callable[[float], _Growth], bracket: _Bracket, hidden: float) -> _Bracket:
     """Return a bracket with a lower upper end: from a place on where rounding hides the growth."""
     if not bracket.low < hidden < bracket.high:
         return bracket

@@ -160,12 +160,12 @@ def check_real(case: Case) -> Case:
     return case
 
 
-def vehicle_beam(case: Case) -> Beam:
+def vehicle_beam(case: Case, acting: tuple[Tangent, ...] | None = None) -> Beam:
     """Return the vehicle of a case as a free-free beam under the axial force of its loads.
 
     ``N(x) = axial_jump + axial_inertia * (mass ahead of x)`` between the breakpoints of the loads;
     shares of the cavitator's drag and of the thrust turn with the body, and the water pushes back
-    where the model says so.
+    where the model says so; by some of its tangents alone where these are given.
     """
     loads, burnt, model = case.loads, case.condition.burn_fraction, case.model
     nose, tail = model.follow
@@ -183,7 +183,8 @@ def vehicle_beam(case: Case) -> Beam:
         **_sheared(case.vehicle, loads, model),
     )
     beam = _with_water(beam, case.added_masses, model)
-    feedback = [PointFeedback.of(t.x, t.stiffness, t.damping) for t in case.tangents]
+    acting = case.tangents if acting is None else acting
+    feedback = [PointFeedback.of(t.x, t.stiffness, t.damping) for t in acting]
     return beam.with_attachments(*feedback) if feedback else beam
 
 

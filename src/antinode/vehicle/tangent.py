@@ -57,7 +57,10 @@ class Tangent:
     damping : array, shape (2, 2)
         [[N s/m, N s/rad], [N s, N m s/rad]].
     room : float
-        How far the place may move until a one-sided contact ends [m]; infinite where there is none.
+        How far the body may move where it touches until a one-sided contact ends [m]; infinite
+        where there is none.
+    touches : float
+        Where that contact is [m]; NaN where there is none.
     """
 
     name: str
@@ -66,6 +69,7 @@ class Tangent:
     stiffness: Array
     damping: Array
     room: float = np.inf
+    touches: float = np.nan
 
     @property
     def spring(self) -> float:
@@ -183,7 +187,9 @@ def _planing_tangent(cases: ManyCases, loads: Loads) -> Tangent:
     arm = np.array([[1.0, tail - x], [0.0, 1.0]])
     stiffness = -np.stack([by_place, by_angle], axis=-1) @ arm
     damping = -np.array([[by_angle[0], 0.0], [0.0, 0.0]]) / cases.condition.speed @ arm
-    return Tangent("planing", x, F, stiffness, damping, _room(loads, radius))
+    room = _room(loads, radius)
+    touches = tail if np.isfinite(room) else np.nan
+    return Tangent("planing", x, F, stiffness, damping, room, touches)
 
 
 def _acts_at(loads: Loads) -> float:

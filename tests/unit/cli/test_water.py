@@ -26,7 +26,17 @@ def folder(tmp_path_factory):
 
 def test_what_each_device_does_stands_beside_the_modes(folder):
     out = run("modes", folder / "case.toml", *TANGENT, *FIXED, *FEW).out
-    for words in ("the water at", "planing", "2503", "without", "f L/V", "one-sided", "2.77 mm"):
+    for words in (
+        "the water at",
+        "planing",
+        "2503",
+        "without",
+        "contact off",
+        "contact ends",
+        "f L/V",
+        "one-sided",
+        "2.77 mm",
+    ):
         assert words in out
     left_out = " ".join(out[out.index("Not in the model") :].split())
     assert "hydrodynamic" not in left_out
@@ -48,6 +58,11 @@ def test_as_json(folder):
     assert planing["contact_ends_at_m"] == pytest.approx(2.77e-3, rel=1e-2)
     assert water["tangents"][0]["contact_ends_at_m"] is None
     assert water["without"]["frequencies_hz"][0] == pytest.approx(3.2487, rel=1e-4)
+    assert planing["contact_x_m"] == 6.0
+    assert water["contact_off"]["frequencies_hz"][0] < water["without"]["frequencies_hz"][0]
+    ends = {end["mode"]: end for end in water["contact_ends"]}
+    assert ends["bending 4"]["amplitude_m"] == planing["contact_ends_at_m"]
+    assert ends["bending 4"]["acceleration_g"] == pytest.approx(0.749, rel=2e-2)
     assert water["reduced_frequency"]["bending 4"] == pytest.approx(0.613, abs=2e-3)
 
 

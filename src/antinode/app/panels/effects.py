@@ -10,7 +10,9 @@ import numpy as np
 from antinode.app.compute import Answer
 from antinode.app.quick import QUICK_FAMILY
 from antinode.modes.result import ModalResult
+from antinode.response.units import STANDARD_GRAVITY
 from antinode.show.each_effect import each_effect
+from antinode.show.water import contact_ends, side_by_side, water_notes
 from antinode.vehicle.case import Case
 from antinode.vehicle.end_forces import Choice, compare_end_forces
 
@@ -65,6 +67,8 @@ def ends_data(answer: Answer) -> dict[str, Any]:
     assert result is not None
     if case is None:
         return said("Thrust and drag are those of a vehicle; a beam's own ends are switched above.")
+    if case.tangents:
+        return _on_the_water(case, result)
     choices = compare_end_forces(case, result)
     if not choices:
         return said(_COMPLEX if answer.is_damped else _NOT_STEADY)
@@ -72,6 +76,26 @@ def ends_data(answer: Answer) -> dict[str, Any]:
 
 
 _NOT_STEADY = "A mode diverges or flutters here; the choices are compared where all modes vibrate."
+
+
+def _on_the_water(case: Case, result: ModalResult) -> dict[str, Any]:
+    """Return the bending frequencies by what of the water acts, and where contact ends."""
+    columns, ends = side_by_side(case, result), contact_ends(case, result)
+    shown = min(map(len, columns.values()))
+    rows = []
+    for k in range(shown):
+        row = [str(k + 1), *(f"{found[k].frequency_hz:.6g}" for found in columns.values())]
+        if ends:
+            row.append(f"{ends[k].acceleration / STANDARD_GRAVITY:.3g}")
+        rows.append(row)
+    heads = [f"{name} [Hz]" for name in columns]
+    if ends:
+        heads.append("contact ends [g]")
+    meaning = (
+        "Bending modes that oscillate, those of each column by frequency. Contact ends where the "
+        "tail, vibrating in that mode, leaves the cavity's wall."
+    )
+    return sheet(["", *heads], rows, water_notes(case, result), meaning)
 
 
 def _side_by_side(case: Case, choices: tuple[Choice, ...]) -> dict[str, Any]:
