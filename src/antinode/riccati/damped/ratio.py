@@ -199,8 +199,8 @@ class Ratio:
         basis = _combinations(S, turned=turned)
         size = np.abs(np.diagonal(basis, axis1=-2, axis2=-1))
         back = np.swapaxes(basis, -1, -2)
-        inverse = np.linalg.inv(basis)
-        scaled = inverse @ G @ np.swapaxes(inverse, -1, -2)
+        forth = np.linalg.inv(basis)
+        scaled = forth @ G @ np.swapaxes(forth, -1, -2)
         Z = back @ (acting.K + s[:, None, None] * acting.C) @ basis
         A = np.eye(len(acting.node)) + scaled @ Z
         with np.errstate(all="ignore"):
