@@ -12,7 +12,9 @@ import numpy as np
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
-from PIL import Image
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+from PIL import Image, PngImagePlugin
 
 from antinode import (
     Beam,
@@ -30,7 +32,8 @@ from antinode import (
 )
 from antinode.modes.loading import under
 from antinode.show.end_forces import plot_end_forces
-from antinode.show.figures import PALETTE, plot_case, plot_loads, plot_modes, save
+from antinode.show.figures import PALETTE, plot_case, plot_loads, plot_modes
+from antinode.show.figures import save as save_figure
 from antinode.show.response_figures import plot_response
 from antinode.show.stability_figures import plot_loci
 from antinode.show.style import BODY, GREY, INK, WIDTH, styled
@@ -45,6 +48,18 @@ EXAMPLES = ROOT / "src" / "antinode" / "examples"
 STARTER = EXAMPLES / "starter" / "case.toml"
 
 
+def save(figure: Figure, path: Path) -> None:
+    """Write a figure, and in the file the words that it shows: a test compares them."""
+    figure.canvas.draw()
+    words = [text.get_text() for text in figure.findobj(Text) if text.get_visible()]
+    save_figure(figure, path)
+    info = PngImagePlugin.PngInfo()
+    info.add_itxt("Description", "\n".join(word for word in words if word.strip()))
+    with Image.open(path) as image:
+        image.load()
+        image.save(path, pnginfo=info, dpi=image.info.get("dpi"), optimize=True)
+
+
 def starter_modes() -> None:
     """Draw the starter vehicle in its cavity, its axial force and its modes."""
     case = load_case(STARTER)
@@ -53,10 +68,18 @@ def starter_modes() -> None:
 
 def ruler_modes() -> None:
     """Draw the steel strip of the tutorial, pinned at both ends under 600 N."""
-    beam = Beam.from_stations(
-        [0.0, 1.0], 1.1775, 65.625, 3.15e7, 600.0, ends=Ends("pinned", "pinned"), name="ruler"
-    )
-    save(plot_modes(solve_modes(beam, 4)), IMAGES / "ruler_modes.png")
+    with TemporaryDirectory() as folder:
+        path = written("tutorial.md", "ruler.toml", folder)
+        pinned = ("beam.ends.left=pinned", "beam.ends.right=pinned")
+        file = load_beam(path, [*pinned, "beam.stations.axial_force=[600, 600]"])
+    save(plot_modes(solve_modes(file, 4)), IMAGES / "ruler_modes.png")
+
+
+def written(page: str, name: str, folder: str) -> Path:
+    """Write a file that a page shows, and return its path."""
+    text = (Path(__file__).parent / page).read_text("utf-8").split(f"# {name}")[1].split("```")[0]
+    (path := Path(folder) / name).write_text(f"# {text}", encoding="utf-8")
+    return path
 
 
 def howto() -> None:
@@ -78,12 +101,8 @@ def end_forces() -> None:
 
 def stability_loci() -> None:
     """Draw the root loci of the rocket of the how-to page."""
-    text = (Path(__file__).parent / "howto" / "stability.md").read_text("utf-8")
-    stations = text.split("# rocket.toml\n")[1].split("```")[0]
     with TemporaryDirectory() as folder:
-        path = Path(folder) / "rocket.toml"
-        path.write_text(stations, encoding="utf-8")
-        beam = load_beam(path).beam()
+        beam = load_beam(written("howto/stability.md", "rocket.toml", folder)).beam()
     save(plot_loci(root_loci(beam, stability(beam))), IMAGES / "howto_stability.png")
 
 
@@ -147,8 +166,7 @@ def speed_sweep() -> None:
         axes.plot(speeds, first, "o-", color=colour, label=f"thrust {thrust} kN")
     axes.set(xlabel="speed [m/s]", ylabel="first bending frequency [Hz]")
     axes.legend()
-    figure.savefig(IMAGES / "speed_sweep.png")
-    plt.close(figure)
+    save(figure, IMAGES / "speed_sweep.png")
 
 
 def literal_methods() -> None:
@@ -176,8 +194,7 @@ def literal_methods() -> None:
         ylim=(3e-17, 6),
     )
     axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.21))
-    figure.savefig(IMAGES / "literal_methods.png")
-    plt.close(figure)
+    save(figure, IMAGES / "literal_methods.png")
 
 
 def conventions() -> None:
@@ -189,8 +206,7 @@ def conventions() -> None:
         axes.set_axis_off()
     _draw_vehicle(top)
     _draw_slice(bottom)
-    figure.savefig(IMAGES / "conventions.png")
-    plt.close(figure)
+    save(figure, IMAGES / "conventions.png")
 
 
 def _arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float], colour: str) -> None:

@@ -12,6 +12,7 @@ last table carries a mode along the beam by equation 81 and by antinode's two sw
 import math
 import sys
 from itertools import pairwise
+from pathlib import Path
 
 import mpmath
 import numpy as np
@@ -117,23 +118,40 @@ def _equation_81(chain, omega2):
     return np.array(Y)[:: len(U) // len(chain.length)]
 
 
-def main():
-    print("| segments | mode | " + " | ".join(FUNCTIONS) + " |")
-    print("|---|---|" + "---|" * len(FUNCTIONS))
+def lines():
+    """Yield the record line by line."""
+    yield "# The paper's own determinants, beside the frames"
+    yield ""
+    yield "Written by `python validation/literal_methods.py`: relative errors of frequencies."
+    yield ""
+    yield "| segments | mode | " + " | ".join(FUNCTIONS) + " |"
+    yield "|---|---|" + "---|" * len(FUNCTIONS)
+    summary = []
     for segments in (1, 100, 1000):
         chain = uniform(segments)
         columns = [relative_errors(function, chain) for function in FUNCTIONS.values()]
         for k in (1, 2, 4, 6, 8, 9, 10, 11, 12, 20, 40):
             cells = ("lost" if math.isnan(c[k - 1]) else f"{c[k - 1]:.0e}" for c in columns)
-            print(f"| {segments} | {k} | " + " | ".join(cells) + " |")
+            yield f"| {segments} | {k} | " + " | ".join(cells) + " |"
         for (name, function), column in zip(FUNCTIONS.items(), columns, strict=True):
             lost, false = np.flatnonzero(np.isnan(column)) + 1, false_roots(function, chain)
-            worst = np.nanmax(column)
-            print(f"<!-- {segments} {name}: worst {worst:.1e}, lost {lost.size}, from mode "
-                  f"{lost[:1]}; false roots after modes {false[:3]} -->")  # fmt: skip
-    print("\n| mode | eq. 81 | two sweeps |\n|---|---|---|")
+            first = [", ".join(map(str, each)) or "none" for each in (lost[:1], false[:3])]
+            summary.append(f"| {segments} | {name} | {np.nanmax(column):.1e} | {lost.size} | "
+                           f"{first[0]} | {first[1]} |")  # fmt: skip
+    yield "\n| segments | method | worst | lost | the first lost | false roots after modes |"
+    yield "|---|---|---|---|---|---|"
+    yield from summary
+    yield "\n| mode | eq. 81 | two sweeps |\n|---|---|---|"
     for k, literal, ours in shape_errors(100, (1, 2, 4, 6, 8, 10, 12, 20, 40)):
-        print(f"| {k} | {literal:.0e} | {ours:.0e} |")
+        yield f"| {k} | {literal:.0e} | {ours:.0e} |"
+
+
+def main():
+    kept = []
+    for line in lines():
+        print(line, flush=True)
+        kept.append(line)
+    Path(__file__).with_suffix(".md").write_text("\n".join(kept) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

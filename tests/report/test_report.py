@@ -222,6 +222,19 @@ def test_a_study_with_tracked_frequencies_and_one_with_indices(folder):
     assert "http" not in to_html(document)
 
 
+def test_author_revision_and_checker_stand_under_the_title(folder, tmp_path):
+    people = ("--author", "A. <Smith>", "--revision", "B")
+    code, _, err = run("report", folder / "tower" / "beam.toml", "-o", tmp_path / "r.html", *people)
+    assert code == 0, err
+    under = (
+        (tmp_path / "r.html").read_text("utf-8").split("</dl>")[0].split('<dl class="facts">')[1]
+    )
+    told = re.findall(r"<dt>(.*?)</dt>\s*<dd>(.*?)</dd>", under, re.S)
+    assert dict(told)["Author"] == "A. &lt;Smith&gt;"
+    assert dict(told)["Revision"] == "B"
+    assert set(dict(told)["Checked by"]) == {".", " "}
+
+
 def test_html_escapes_what_a_file_says(folder):
     name = ("beam.name='<script>alert(1)</script>'",)
     page = to_html(make_report(folder / "tower" / "beam.toml", name)[0])
@@ -287,6 +300,9 @@ def test_numbers():
     assert number(math.inf) == "∞"
     assert number(math.nan) == "–"
     assert number(1e-6) == "10⁻⁶"
+    assert [number(v) for v in (5e4, 1e5, 3.5e6, 1e9)] == [
+        "50000", "100000", "3500000", "1\u00a0×\u00a010⁹"
+    ]  # fmt: skip
     assert small(3.14e-9) == "3.1\u00a0×\u00a010⁻⁹"
     assert percent(-0.0123) == "−1.23\u00a0%"
     low, high = apart(3.24870857948, 3.24870857962)

@@ -169,6 +169,12 @@ ReportResponses = Annotated[
         "--response",
     ),
 ]
+ReportAuthor = Annotated[str, option(OUTPUT, "Who answers for it, under the title.", "--author")]
+ReportRevision = Annotated[str, option(OUTPUT, "Its revision, under the title.", "--revision")]
+ReportChecked = Annotated[
+    str,
+    option(OUTPUT, "Who has checked it; left to fill in by hand if nobody has.", "--checked-by"),
+]
 FromFormat = Annotated[
     str,
     option(

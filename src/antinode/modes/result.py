@@ -33,13 +33,14 @@ Method = Literal["riccati", "tmm"]
 Normalisation = Literal["amplitude", "mass"]
 Damping = Literal["auto", "none", "complex"]
 
+_STEERING = "control of the thrust's direction"
 NOT_MODELLED = (
     "shear deformation and rotary inertia (their effect is estimated, with kGA = EA/4.9 of a "
     "thin-walled tube where none is given: kappa = 0.53)",
     "added mass of wetted parts",
     "damping",
     "shell modes of the wall",
-    "control of the thrust's direction",
+    _STEERING,
 )
 """What the model of Euler and Bernoulli leaves out; Timoshenko's all but the first."""
 
@@ -48,6 +49,7 @@ def not_modelled(beam: Beam, damped: bool = False) -> tuple[str, ...]:
     """Return what the model of a beam leaves out; `damped` where its modes are complex."""
     first = 1 if beam.has_shear else 0
     solved = {"damping"} if damped else set()
+    solved |= {_STEERING} if beam.is_unloaded else set()
     rigid_in_shear = beam.is_timoshenko and not beam.has_shear
     return beam.left_out + tuple(
         words.replace("and rotary inertia (their", "(its") if rigid_in_shear else words

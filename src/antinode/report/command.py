@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 import time
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from antinode.beam.file import TABLES, BeamFile, load_beam
@@ -25,6 +26,18 @@ from .provenance import source_of
 from .response_section import with_responses
 from .vehicle_report import vehicle_report, vehicle_warnings
 
+People = tuple[str, str, str]
+"""Author, revision, and who checked it."""
+NOBODY: People = ("", "", "")
+_BY_HAND = ". " * 12
+
+
+def signed(document: Document, people: People) -> Document:
+    """Return a document with author, revision and checker under its title."""
+    names = ("Author", "Revision", "Checked by")
+    told = tuple((n, each.strip() or _BY_HAND) for n, each in zip(names, people, strict=True))
+    return replace(document, facts=(*document.facts, *told))
+
 
 def run_report(
     file: Path,
@@ -34,6 +47,7 @@ def run_report(
     modes: int | None = None,
     tolerance: float | None = None,
     responses: tuple[Path, ...] = (),
+    people: People = NOBODY,
     json: bool = False,
 ) -> None:
     """Write the report on a case, a beam or a study, and say so."""
@@ -41,7 +55,7 @@ def run_report(
     check_output(output, ENDINGS)
     check_libraries(output)
     document, told = make_report(file, assignments, modes, tolerance, responses)
-    write_report(document, output)
+    write_report(signed(document, people), output)
     if json:
         data = {
             "schema_version": 1,
@@ -64,6 +78,9 @@ def report_file(
     modes: int | None = None,
     tolerance: float | None = None,
     responses: Iterable[str | Path] = (),
+    author: str = "",
+    revision: str = "",
+    checked_by: str = "",
 ) -> list[str]:
     """Write the report on the case, beam or study of a file, as `antinode report` does.
 
@@ -78,6 +95,8 @@ def report_file(
         By default the file's.
     responses : iterable of str or Path
         Response files of that case or beam: a chapter for each.
+    author, revision, checked_by : str
+        What stands under the title; empty ones are left to be filled in by hand.
 
     Returns
     -------
@@ -93,7 +112,7 @@ def report_file(
     check_libraries(Path(output))
     more = tuple(map(Path, responses))
     document, told = make_report(Path(file), tuple(assignments), modes, tolerance, more)
-    write_report(document, Path(output))
+    write_report(signed(document, (author, revision, checked_by)), Path(output))
     return told
 
 

@@ -6,6 +6,7 @@ import math
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _MOST_DIGITS = 13
+_PLAIN = 1e7  # from here on, and where so many digits would stand, powers of ten
 
 
 def number(value: float | None, digits: int = 5) -> str:
@@ -15,9 +16,12 @@ def number(value: float | None, digits: int = 5) -> str:
     if math.isinf(value):
         return "∞" if value > 0 else "−∞"
     mantissa, _, exponent = f"{value + 0.0:.{digits}g}".partition("e")
-    if exponent:
+    if exponent and 1 <= abs(value) < _PLAIN:
+        mantissa = f"{float(f'{mantissa}e{exponent}'):.0f}"
+    elif exponent:
         power = str(int(exponent)).translate(_RAISED)
-        mantissa = f"{mantissa} × 10{power}" if mantissa != "1" else f"10{power}"
+        bare = mantissa == "1" and value < 1
+        mantissa = f"10{power}" if bare else f"{mantissa} × 10{power}"
     return mantissa.replace("-", "−")
 
 

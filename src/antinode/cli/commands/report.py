@@ -6,9 +6,12 @@ from pathlib import Path
 
 from antinode.cli.options import (
     Json,
+    ReportAuthor,
+    ReportChecked,
     ReportFile,
     ReportModes,
     ReportResponses,
+    ReportRevision,
     ReportTolerance,
     Set,
 )
@@ -23,6 +26,9 @@ def report(
     modes: ReportModes = None,
     tolerance: ReportTolerance = None,
     response: ReportResponses = (),
+    author: ReportAuthor = "",
+    revision: ReportRevision = "",
+    checked_by: ReportChecked = "",
     json: Json = False,
 ) -> None:
     """Write a report on a case, a beam or a study that can be handed to a reviewer.
@@ -36,6 +42,7 @@ def report(
     - Example: **antinode report case.toml -o report.pdf**
     - Example: **antinode report beam.toml -o report.html --modes 4**
     - Example: **antinode report beam.toml -o report.pdf --response random.toml**
+    - Example: **antinode report beam.toml -o report.pdf --author "A. Smith" --revision B**
 
     Parameters
     ----------
@@ -44,4 +51,13 @@ def report(
     """
     from antinode.report.command import run_report
 
-    run_report(file, set_, output, modes=modes, tolerance=tolerance, responses=response, json=json)
+    run_report(
+        file,
+        set_,
+        output,
+        modes=modes,
+        tolerance=tolerance,
+        responses=response,
+        people=(author, revision, checked_by),
+        json=json,
+    )
