@@ -110,6 +110,9 @@ def test_its_size_is_printed_and_what_is_left_out_is_named(folder):
     assert tail["mass_kg"] == pytest.approx(0.1705, rel=1e-3)
     assert not any("added mass" in text for text in data["not_modelled"])
     plain = json.loads(run("modes", path, *words, "--json").out)
+    first = [{m["name"]: m for m in each["modes"]}["bending 1"] for each in (data, plain)]
+    f1, dry = (mode["frequency_hz"] for mode in first)
+    assert f1 / dry - 1 == pytest.approx(-0.0014, abs=5e-5)
     assert "added_mass" not in plain["water"]
     assert "added mass of wetted parts" in plain["not_modelled"]
 
