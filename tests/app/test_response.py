@@ -17,6 +17,7 @@ from antinode.app.panels.response import response_data
 from antinode.app.source import read_example
 from antinode.app.state import State
 from antinode.errors import InputError
+from antinode.response.damping import Rayleigh
 from app_browser import Tab
 
 
@@ -46,6 +47,45 @@ def test_the_curve_is_the_solvers(name):
     assert full["peaks"][0]["mode"] == "bending 1"
     assert quick["quick"]
     assert not full["quick"]
+
+
+@pytest.mark.parametrize(
+    ("name", "asked"),
+    [
+        ("starter", {}),
+        ("starter", {"damping": "rayleigh", "ratio": 0.004}),
+        ("drawing", {"drive": "base", "amplitude": 2.0}),
+        ("drawing", {"drive": "base", "damping": "modal", "ratio": 0.02}),
+        ("rocket", {"damping": "modal"}),
+        ("rocket", {"loss_factor": 2e-4}),
+    ],
+)
+def test_every_peak_has_an_error_while_something_moves(name, asked):
+    own = state(name, **asked)
+    quick = response_data(own, quick_answer(own), full=False)
+    full = response_data(own, full_answer(own), full=True)
+    assert len(quick["peaks"]) == len(full["peaks"]) >= 3
+    for one, other in zip(quick["peaks"], full["peaks"], strict=True):
+        shown = 1e-5 * other["size"]  # five digits
+        away = abs(one["size"] - other["size"])
+        assert away <= float(one["error"]) + float(other["error"]) + shown
+        assert float(one["error"]) < 5e-2 * max(p["size"] for p in quick["peaks"])
+    assert ("supports" in quick["title"]) == ("drive" in asked)
+
+
+def test_damping_of_the_page_is_that_of_the_solver():
+    own = state("drawing", drive="base", damping="rayleigh", ratio=0.03, low=0.3, high=12.0)
+    full = response_data(own, full_answer(own), full=True)
+    damping = an.Damping(rayleigh=Rayleigh.fitted((0.03, 0.03), (0.3, 12.0)))
+    exact = an.frequency_response(
+        own.beam,
+        [peak["hz"] for peak in full["peaks"]],
+        [an.Base()],
+        [an.Output(24.0, "acceleration")],
+        damping=damping,
+    )
+    sizes = np.abs(exact.values[0, 0])
+    np.testing.assert_allclose([p["size"] for p in full["peaks"]], sizes, rtol=6e-5)
 
 
 def test_it_costs_a_slider_some_milliseconds_more():
@@ -78,6 +118,7 @@ def test_units_and_words():
         ({"direction": "torsional", "quantity": "displacement"}, "no torsional_stiffness"),
         ({"direction": "axial", "quantity": "bending_moment"}, "makes no bending moment"),
         ({"low": 50.0, "high": 5.0}, "is empty"),
+        ({"drive": "base", "direction": "torsional"}, "no torsional_stiffness"),
     ],
 )
 def test_what_cannot_be_is_said(asked, words):
@@ -135,6 +176,17 @@ def test_another_output_by_the_menu(chromium, address):
         drawing, [float(shown[0])], drives, outputs, damping=an.Damping(0.02)
     )
     assert float(shown[1]) == pytest.approx(2000.0 * abs(exact.values[0, 0, 0]), rel=1e-4)
+    assert tab.page.get_by_label("response: damping ratio").is_hidden()
+    tab.page.get_by_label("response: amplitude").fill("20 m/s^2")
+    tab.page.get_by_label("response: drive").click()
+    tab.page.get_by_role("option", name="motion of the supports").click()
+    tab.page.wait_for_function(f"{title}.startsWith('supports by 20 m/s^2, lateral')")
+    assert tab.page.get_by_label("response: force at").is_hidden()
+    tab.page.get_by_label("response: damping", exact=True).click()
+    tab.page.get_by_role("option", name="ratio of all modes").click()
+    tab.page.get_by_label("response: damping ratio").fill("0.05")
+    tab.page.get_by_label("response: damping ratio").press("Enter")
+    tab.page.wait_for_selector(".an-peaks:not(.an-quick) td")
     assert tab.errors == []
     tab.page.close()
 

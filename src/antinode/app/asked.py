@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -12,8 +12,9 @@ from antinode.beam.families import tells
 from antinode.errors import InputError
 from antinode.inputs.units import Frozen, Length, Number, Unit
 from antinode.modes.hertz import hertz
-from antinode.response.damping import Damping
+from antinode.response.damping import Damping, Rayleigh
 from antinode.response.quantities import (
+    Base,
     Direction,
     Force,
     Output,
@@ -31,15 +32,22 @@ _BELOW, _ABOVE = 0.3, 1.15
 _Positive = Field(gt=0, lt=1e12)
 
 
-class Asked(Frozen):
-    """A force and what is followed of it; None is left to the page."""
+Drives = Literal["force", "base"]
+DampingName = Literal["loss_factor", "modal", "rayleigh"]
 
+
+class Asked(Frozen):
+    """What drives, what is followed of it, what loses energy; None is left to the page."""
+
+    drive: Drives = "force"
     force_x: Length | None = None
     direction: Direction = "lateral"
     amplitude: Annotated[Number, _Positive] = 1.0
     output_x: Length | None = None
     quantity: QuantityName = "acceleration"
+    damping: DampingName = "loss_factor"
     loss_factor: Annotated[Number, Field(ge=0, lt=10)] = 0.02
+    ratio: Annotated[Number, Field(gt=0, lt=10)] = 0.01
     low: Annotated[float, Unit("Hz"), _Positive] | None = None
     high: Annotated[float, Unit("Hz"), _Positive] | None = None
 
@@ -49,16 +57,19 @@ class Wanted(NamedTuple):
 
     Attributes
     ----------
-    force : Force
+    drive : Force or Base
+        Of supports their acceleration.
     amplitude : float
-        [N] or [N m].
+        [N], [N m] or [m/s^2].
     output : Output
     damping : Damping
+        By a loss factor, or a viscous ratio: of all modes, or by mass and stiffness at both ends
+        of the band.
     low, high : float
         [Hz].
     """
 
-    force: Force
+    drive: Force | Base
     amplitude: float
     output: Output
     damping: Damping
@@ -89,14 +100,25 @@ def wanted(asked: Asked, beam: Beam, first: Quick) -> Wanted:
         for x, share in ((asked.force_x, _FORCE), (asked.output_x, _SEEN))
     )
     along = "lateral" if asked.direction == "moment" else asked.direction
-    force, output = Force(at, asked.direction), Output(seen, asked.quantity, along)
-    check_places(beam, (force,), (output,))
+    drive: Force | Base = Force(at, asked.direction)
+    if asked.drive == "base":
+        drive = Base(asked.direction)
+    output = Output(seen, asked.quantity, along)
+    check_places(beam, (drive,), (output,))
     if output.family != family_of(asked.direction).name:
         raise InputError(
-            f"a force along '{asked.direction}' makes no {asked.quantity.replace('_', ' ')}; "
+            f"what drives along '{asked.direction}' makes no {asked.quantity.replace('_', ' ')}; "
             "choose another direction or quantity"
         )
-    return Wanted(force, asked.amplitude, output, Damping(asked.loss_factor), low, high)
+    return Wanted(drive, asked.amplitude, output, _damping(asked, low, high), low, high)
+
+
+def _damping(asked: Asked, low: float, high: float) -> Damping:
+    if asked.damping == "modal":
+        return Damping(modal=(asked.ratio,))
+    if asked.damping == "rayleigh":
+        return Damping(rayleigh=Rayleigh.fitted((asked.ratio, asked.ratio), (low, high)))
+    return Damping(asked.loss_factor)
 
 
 def directions(beam: Beam) -> list[Direction]:

@@ -1,17 +1,20 @@
-"""The response that the page shows: at once by two chains while something moves, then in full."""
+"""The response that the page shows: by three chains while something moves, then in full."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from antinode.arrays import Array, Numbers
 from antinode.beam.beam import Beam
 from antinode.modes.hertz import hertz
+from antinode.response.damping import Damping
 from antinode.response.frequency import Model
 from antinode.response.harmonic import HarmonicResult
+from antinode.response.modal_sum import modal_response
 from antinode.response.peaks import Peak, find_peaks, with_resonances
+from antinode.response.quantities import Force
 from antinode.response.solve import beam_response
 
 from .asked import Wanted
@@ -19,6 +22,7 @@ from .quick import QUICK_FAMILY, Quick
 
 _POINTS = 240  # of the curve, besides those at resonances
 _LEAST_RATIO = 1e-4  # of damping, for points beside resonances
+_BY_MODES = 1e-2  # of a sum of modes, while something moves
 
 
 class Curve(NamedTuple):
@@ -31,17 +35,17 @@ class Curve(NamedTuple):
         Complex, SI.
     peaks : tuple of Peak
     error : float
-        Of the values; NaN while something moves.
-    peak_error : float
-        Of the sizes of the peaks; NaN while something moves.
+        Of the values.
+    peak_error : tuple of float
+        Of the size of each peak.
     warnings : tuple of str
     """
 
     frequency_hz: Array
     values: Numbers
     peaks: tuple[Peak, ...]
-    error: float = float("nan")
-    peak_error: float = float("nan")
+    error: float
+    peak_error: tuple[float, ...]
     warnings: tuple[str, ...] = ()
 
 
@@ -51,24 +55,51 @@ def _grid(wanted: Wanted, quick: Quick) -> Array:
     if wanted.output.family != QUICK_FAMILY:
         return plain
     resonance = hertz(np.maximum(quick.omega2, 0.0))
-    ratio = np.full(len(resonance), max(wanted.damping.loss_factor / 2, _LEAST_RATIO))
-    return with_resonances(plain, resonance, ratio)
+    return with_resonances(plain, resonance, _ratios(wanted.damping, resonance))
+
+
+def _ratios(damping: Damping, resonance_hz: Array) -> Array:
+    """Return about how wide resonances are."""
+    if damping.rayleigh is not None:
+        return damping.rayleigh.ratio(2 * np.pi * np.maximum(resonance_hz, 1e-6))
+    ratio = damping.modal[0] if damping.modal else damping.loss_factor / 2
+    return np.full(len(resonance_hz), max(ratio, _LEAST_RATIO))
 
 
 def quick_curve(beam: Beam, wanted: Wanted, quick: Quick) -> Curve:
-    """Return a response to about 1e-4, in some milliseconds: two chains, extrapolated."""
-    model = Model(beam, [wanted.force], [wanted.output], wanted.damping, wanted.high)
-    grid, family = _grid(wanted, quick), wanted.output.family
-    first = model.first(family)
-    for refinement in (first, 2 * first) if np.any(beam.varies(family)) else (first,):
-        model.forced(family, refinement)
-    values = wanted.amplitude * model.quick(grid)[0, 0]
+    """Return a response in some milliseconds, with its errors: three chains, or some modes."""
+    model = Model(beam, [wanted.drive], [wanted.output], wanted.damping, wanted.high)
+    grid, a = _grid(wanted, quick), wanted.amplitude
+    if wanted.damping.modal:
+        return _summed(model, grid, a)
+    values, error = (a * part[0, 0] for part in model.judged(grid))
 
     def sizes(places: Array) -> Array:
-        return np.abs(wanted.amplitude * model.quick(places)[:, 0])
+        return np.abs(a * model.quick(places)[:, 0])
 
-    peaks = find_peaks(sizes, grid, np.abs(values)[None, :])
-    return Curve(grid, values, tuple(peaks[0]))
+    peaks = tuple(find_peaks(sizes, grid, np.abs(values)[None, :])[0])
+    return Curve(grid, values, peaks, float(np.max(error)), _of_peaks(model, peaks, a))
+
+
+def _of_peaks(model: Model, peaks: tuple[Peak, ...], amplitude: float) -> tuple[float, ...]:
+    """Return the error of each peak: the largest where it may be."""
+    if not peaks:
+        return ()
+    places, back = np.unique([(*p.bracket_hz, p.frequency_hz) for p in peaks], return_inverse=True)
+    error = amplitude * model.judged(places)[1][0, 0]
+    return tuple(np.max(error[back.reshape(-1, 3)], axis=1).tolist())
+
+
+def _summed(model: Model, grid: Array, amplitude: float) -> Curve:
+    """Return a response by ratios of modes."""
+    found = modal_response(model, grid, None, _BY_MODES)
+
+    def sizes(places: Array) -> Array:
+        return np.abs(amplitude * found.at(places)[:, 0])
+
+    peaks = tuple(find_peaks(sizes, grid, sizes(grid))[0])
+    error, wrong = (amplitude * float(part[0, 0]) for part in (found.error, found.peak_error))
+    return Curve(grid, amplitude * found.values[0, 0], peaks, error, (wrong,) * len(peaks))
 
 
 def full_curve(beam: Beam, wanted: Wanted, quick: Quick) -> Curve:
@@ -79,14 +110,23 @@ def full_curve(beam: Beam, wanted: Wanted, quick: Quick) -> Curve:
     AntinodeError
         If there is none.
     """
-    force, output = wanted.force, wanted.output
+    drive, output, rayleigh = wanted.drive, wanted.output, wanted.damping.rayleigh
+    driven: dict[str, Any] = {"direction": drive.direction, "amplitude": wanted.amplitude}
+    lost: dict[str, Any] = {"loss_factor": wanted.damping.loss_factor}
+    if wanted.damping.modal:
+        lost = {"modal": wanted.damping.modal}
+    elif rayleigh is not None:
+        ends = wanted.low, wanted.high
+        ratios = [float(rayleigh.ratio(np.array(2 * np.pi * f))) for f in ends]
+        lost = {"rayleigh": {"ratios": ratios, "frequencies": ends}}
+    given = {"forces": [{"x": drive.x, **driven}]} if isinstance(drive, Force) else {"base": driven}
     result = beam_response(
         beam,
         "harmonic",
         frequency={"values": _grid(wanted, quick).tolist()},
-        damping={"loss_factor": wanted.damping.loss_factor},
-        forces=[{"x": force.x, "direction": force.direction, "amplitude": wanted.amplitude}],
+        damping=lost,
         outputs=[{"x": output.x, "quantity": output.quantity, "direction": output.direction}],
+        **given,
     )
     assert isinstance(result, HarmonicResult)
     return Curve(
@@ -94,6 +134,6 @@ def full_curve(beam: Beam, wanted: Wanted, quick: Quick) -> Curve:
         result.values[0],
         result.peaks[0],
         float(result.error[0]),
-        float(result.peak_error[0]),
+        (float(result.peak_error[0]),) * len(result.peaks[0]),
         result.warnings,
     )

@@ -268,6 +268,15 @@ def largest_of_unit(size: Array, units: Sequence[str]) -> Array:
     return largest
 
 
+def judged(beam: Beam, chains: list[Forced], omega: Array) -> tuple[Numbers, Array]:
+    """Return the responses of ever finer chains, extrapolated, and the error of each number."""
+    values = [forced.at(omega) for forced in chains]
+    if len(values) == 1:
+        return values[0], np.zeros(values[0].shape)
+    finest = chains[-1].chain
+    return _judged(values, layer_length(finest, varying_segments(beam, finest)))
+
+
 def _judged(levels: list[Numbers], layer: float) -> tuple[Numbers, Array]:
     """Extrapolate by `riccati.convergence`, number by number."""
     shape = levels[-1].shape

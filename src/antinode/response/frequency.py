@@ -26,7 +26,7 @@ from antinode.modes.backends import BackendName
 from antinode.modes.solve import HasBeam
 
 from .damping import UNDAMPED, Damping
-from .forced import Forced, refined, with_stations
+from .forced import Forced, judged, refined, with_stations
 from .modal import modes_below
 from .quantities import Base, Drive, Force, Output, check_places, stations_of
 
@@ -175,6 +175,23 @@ class Model:
                     round_off = rounding(finest, omega[part], H[rows][:, :, part])
                     errors[rows] = np.max(each[:, :, part], axis=-1) + round_off
         return H[:, :, :needed], error, wrong
+
+    def judged(self, frequency_hz: Array) -> tuple[Numbers, Array]:
+        """Return outputs over drives by three levels of chains, and the error of each number.
+
+        However large it is: for a look that must not take long. (outputs, drives, k) each.
+        """
+        omega = 2 * np.pi * frequency_hz
+        H = np.zeros((len(self.outputs), len(self.drives), len(omega)), dtype=complex)
+        error = np.zeros(H.shape)
+        for family in self.families:
+            first, rows = self.first(family), self.rows(family)
+            levels = (first, 2 * first, 4 * first) if np.any(self.beam.varies(family)) else (first,)
+            chains = [self.forced(family, refinement) for refinement in levels]
+            H[rows], error[rows] = judged(self.beam, chains, omega)
+            moved = np.abs(chains[-1].at(omega * (1 + _STEP)) - chains[-1].at(omega)) / _STEP
+            error[rows] += ROUNDING * (moved + np.abs(H[rows]))
+        return H, error
 
     def use(self, at: Callable[[Array], Numbers]) -> None:
         """Take outputs over drives from a function of frequencies [Hz] henceforth."""

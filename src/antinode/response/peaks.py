@@ -16,6 +16,7 @@ from antinode.arrays import Array
 
 _CUT = 9  # points inside a bracket; two of the ten parts remain
 _ROUNDS = 9
+_ALIKE = 1e-6  # share of a bracket nearer than which two places are one
 _NARROW = 1e-8  # relative width at which a bracket is as narrow as the response can tell
 _BESIDE = np.array([-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0])
 
@@ -91,10 +92,17 @@ def find_peaks(
         values = sizes(places)[which[:, None], back.reshape(rows.shape)]
         best = np.argmax(values, axis=1).clip(1, rows.shape[1] - 2)
         row = np.arange(len(which))
-        low, middle, high = (rows[row, best + k] for k in (-1, 0, 1))
-        height = values[row, best]
+        middle, height = rows[row, best], values[row, best]
+        low, high = _beside(rows, middle, _ALIKE * (high - low))
     found: list[list[Peak]] = [[] for _ in known]
     for k in np.lexsort((middle, which)):
         bracket = float(low[k]), float(high[k])
         found[which[k]].append(Peak(float(middle[k]), bracket, float(height[k])))
     return found
+
+
+def _beside(rows: Array, middle: Array, gap: Array) -> tuple[Array, Array]:
+    """Return the places of each row next to one of them, but for itself met twice."""
+    before, after = rows < (middle - gap)[:, None], rows > (middle + gap)[:, None]
+    low = np.max(np.where(before, rows, rows[:, :1]), axis=1)
+    return low, np.min(np.where(after, rows, rows[:, -1:]), axis=1)

@@ -10,7 +10,7 @@ from antinode.app.asked import Asked, directions
 from antinode.app.session import Session
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
-from antinode.response.quantities import Force, QuantityName
+from antinode.response.quantities import Base, Force, QuantityName
 from antinode.response.units import in_si
 
 _FIELDS = {
@@ -18,8 +18,17 @@ _FIELDS = {
     "amplitude": ("amplitude", ""),
     "output_x": ("output at", "m"),
     "loss_factor": ("loss factor", ""),
+    "ratio": ("damping ratio", ""),
     "low": ("from", "Hz"),
     "high": ("to", "Hz"),
+}
+
+
+_DRIVES = {"force": "a force", "base": "motion of the supports"}
+_DAMPING = {
+    "loss_factor": "loss factor",
+    "modal": "ratio of all modes",
+    "rayleigh": "Rayleigh: that ratio at both ends of the band",
 }
 
 
@@ -40,17 +49,26 @@ class ResponseFields:
         with button:
             menu = ui.menu().props('role="dialog" aria-label="Response"')
         with menu, ui.element("div").classes("an-asked"):
+            self._drive = self._choice("drive", _DRIVES)
             self._field("force_x", asked)
             self._direction = self._choice("direction", directions(session.state.beam))
             self._field("amplitude", asked)
             self._field("output_x", asked)
             named = [name for name in get_args(QuantityName) if not name.startswith("reaction")]
             self._quantity = self._choice("quantity", named)
-            for name in ("loss_factor", "low", "high"):
+            self._damping = self._choice("damping", _DAMPING)
+            for name in ("loss_factor", "ratio", "low", "high"):
                 self._field(name, asked)
             self._message = ui.label("").classes("an-message").props('role="alert"')
             self._message.visible = False
+        self._show_what_counts()
         self.button = button
+
+    def _show_what_counts(self) -> None:
+        """Hide the fields that what is chosen does not read."""
+        self._fields["force_x"].visible = self._drive.value == "force"
+        self._fields["loss_factor"].visible = self._damping.value == "loss_factor"
+        self._fields["ratio"].visible = self._damping.value != "loss_factor"
 
     def _field(self, name: str, asked: Asked) -> None:
         label, unit = _FIELDS[name]
@@ -63,8 +81,8 @@ class ResponseFields:
         field.on("blur", self._take)
         self._fields[name] = field.mark(f"asked-{name}")
 
-    def _choice(self, name: str, words: list[Any]) -> ui.select:
-        options = {word: str(word).replace("_", " ") for word in words}
+    def _choice(self, name: str, words: list[Any] | dict[str, str]) -> ui.select:
+        options = words if isinstance(words, dict) else {w: str(w).replace("_", " ") for w in words}
         asked = getattr(self._session.state.view.response, name)
         value = asked if asked in options else next(iter(options))
         choice = ui.select(options, value=value, label=name, on_change=self._take)
@@ -75,12 +93,14 @@ class ResponseFields:
         """Take what the fields say, or say what is wrong with it."""
         told = {name: str(field.value or "").strip() for name, field in self._fields.items()}
         table: dict[str, Any] = {name: text for name, text in told.items() if text}
-        direction = self._direction.value
+        self._show_what_counts()
+        direction, drive = self._direction.value, self._drive.value
         try:
             if "amplitude" in table:
-                unit = Force(0.0, direction).unit
+                unit = Force(0.0, direction).unit if drive == "force" else Base(direction).unit
                 table["amplitude"] = in_si(table["amplitude"], unit, "amplitude")
             table |= {"direction": direction, "quantity": self._quantity.value}
+            table |= {"drive": drive, "damping": self._damping.value}
             asked = validate(Asked, table, "the response")
         except InputError as error:
             self._message.text, self._message.visible = str(error), True

@@ -17,6 +17,7 @@ from antinode.app.state import State
 from antinode.arrays import Array
 from antinode.modes.hertz import hertz
 from antinode.response.peaks import Peak
+from antinode.response.quantities import Base, Force
 
 from .numbers import short_list
 
@@ -63,7 +64,10 @@ def _drawn(curve: Curve, asked: Wanted, system: System, full: bool, modes: Array
         "low": asked.low,
         "high": asked.high,
         "points": [row for row in points if row[1]],
-        "peaks": [_peak(p, curve.peak_error, unit, modes) for p in curve.peaks],
+        "peaks": [
+            _peak(peak, error, unit, modes)
+            for peak, error in zip(curve.peaks, curve.peak_error, strict=True)
+        ],
         "quick": not full,
         "notes": list(curve.warnings),
     }
@@ -83,12 +87,20 @@ def _peak(peak: Peak, error: float, unit: Shown, modes: Array) -> dict[str, Any]
 
 def title(asked: Wanted, system: System) -> str:
     """Say in words what acts and what is seen."""
-    force, output, length = asked.force, asked.output, shown_unit("m", system)
-    strength = shown_unit(force.unit, "SI" if asked.amplitude >= 1e3 else "mm-t-s")
-    if force.unit == "N m" and asked.amplitude < 1e3:
+    output, length = asked.output, shown_unit("m", system)
+    seen = f"{number_text(length.of(output.x), 4)} {length.name}"
+    return f"{_acts(asked, length)}: {output.quantity.replace('_', ' ')} at {seen}"
+
+
+def _acts(asked: Wanted, length: Shown) -> str:
+    """Say what drives, and how strongly."""
+    drive: Force | Base = asked.drive
+    system: System = "SI" if asked.amplitude >= 1e3 else "mm-t-s"
+    if isinstance(drive, Base):
+        return f"supports by {number_text(asked.amplitude, 4)} {drive.unit}, {drive.direction}"
+    strength = shown_unit(drive.unit, system)
+    if drive.unit == "N m" and asked.amplitude < 1e3:
         strength = Shown("N m", 1.0)
-    place, seen = (f"{number_text(length.of(x), 4)} {length.name}" for x in (force.x, output.x))
-    acts = "moment" if force.direction == "moment" else f"{force.direction} force"
+    word = "moment" if drive.direction == "moment" else f"{drive.direction} force"
     amount = f"{number_text(strength.of(asked.amplitude), 4)} {strength.name}"
-    what = output.quantity.replace("_", " ")
-    return f"{amount} {acts} at {place}: {what} at {seen}"
+    return f"{amount} {word} at {number_text(length.of(drive.x), 4)} {length.name}"
