@@ -29,6 +29,7 @@ from .quantities import Base, Drive, Output, family_of
 
 _MOST_SEGMENTS = 20_000
 _WISHED = 3
+_EPS = 1e-14  # of states in their units: what rounding leaves of one that is nothing
 NOISE = 1e-12
 """Of the largest response of a unit: what is left where the exact one is nothing."""
 
@@ -94,9 +95,55 @@ class Forced:
 
     def at(self, omega: Array) -> Numbers:
         """Return outputs over drives, (outputs, drives, k), at frequencies above 0 [rad/s]."""
+        lanes, sides = self._sides(omega)
+        return self._rated(self._outputs(sides, lanes), omega)
+
+    def at_with_noise(self, omega: Array) -> tuple[Numbers, Array]:
+        """Return the same, and what is nothing but rounding beside the states there, (..., k).
+
+        An output that is exactly zero, such as the moment at a hinge, knows nothing smaller.
+        """
+        lanes, sides = self._sides(omega)
+        units = self.chain.law.state_units(self.chain.units(np.abs(lanes.omega2)))
+        least = _EPS * self._cancelled(np.abs(lanes.omega2), units)
+        noise = np.empty((len(self.outputs), len(self.drives), len(omega)))
+        for row, (output, (_, place)) in enumerate(zip(self.outputs, self._found, strict=True)):
+            scaled = [np.abs(side[place]) / units[:, :, None] for side in sides]
+            size = np.sqrt(np.sum(np.maximum(*scaled) ** 2, axis=1))
+            component = output.component
+            component = component if component >= 0 else len(units[0]) + component
+            noise[row] = least * (units[:, component, None] * size).T
+        H = self._rated(self._outputs(sides, lanes), omega)
+        return H, np.abs(self._rated(noise.astype(complex), omega))
+
+    def _cancelled(self, omega2: Array, units: Array) -> Array:
+        """Return how much larger terms are than what they leave of each other, (k,).
+
+        Beside a heavy mass off its node this turns about its centre. Where end forces follow, a
+        slow body is in balance with them, and only its small inertia answers.
+        """
+        most = np.ones(len(omega2))
+        if any(self.chain.following):
+            stiffness, mass = self.chain.reference
+            most += stiffness / (mass * omega2 * units[:, 0] ** 4)
+        for point in self.chain.points:
+            if point.mass and point.offset:
+                arm = np.maximum(1.0, (point.offset / units[:, 0]) ** 2)
+                most += point.mass * omega2 * units[:, 0] / units[:, -1] * arm
+        return most
+
+    def _sides(self, omega: Array) -> tuple[Lanes, Sides]:
+        """Return the states at the places of outputs, as they are damped."""
         lanes, softer = self.damping.lanes(omega)
-        damped = self.damping.rayleigh is not None
-        H = self.on(lanes, (lambda z: self._proportioned(z, omega, softer)) if damped else None)
+        sides = self.driven.states(lanes)
+        if self.damping.rayleigh is None:
+            return lanes, sides
+        return lanes, Sides(
+            *([self._proportioned(z, omega, softer) for z in side] for side in sides)
+        )
+
+    def _rated(self, H: Numbers, omega: Array) -> Numbers:
+        """Return rates of what is asked for over what is given of the ground."""
         for row, output in enumerate(self.outputs):
             if output.rate:
                 H[row] *= (1j * omega) ** output.rate
@@ -105,11 +152,11 @@ class Forced:
                 H[:, case] /= (1j * omega) ** drive.rate
         return H
 
-    def on(self, lanes: Lanes, damped: Callable[[Numbers], Numbers] | None = None) -> Numbers:
+    def on(self, lanes: Lanes) -> Numbers:
         """Return components of states, not their rates, over forces and displacements."""
-        sides = self.driven.states(lanes)
-        if damped is not None:
-            sides = Sides(*([damped(z) for z in side] for side in sides))
+        return self._outputs(self.driven.states(lanes), lanes)
+
+    def _outputs(self, sides: Sides, lanes: Lanes) -> Numbers:
         H = np.empty((len(self.outputs), len(self.drives), len(lanes.omega2)), dtype=complex)
         for row, (output, found) in enumerate(zip(self.outputs, self._found, strict=True)):
             H[row] = self._output(output, *found, sides, lanes).T

@@ -32,7 +32,8 @@ from .quantities import Base, Drive, Force, Output, check_places, stations_of
 
 ROUNDING = 5e-14
 """Relative change of a frequency that moves a response at least as far as rounding does."""
-_STEP = 1e-7  # relative step by which that change is measured
+_LOST = 0.05  # share of a response that rounding moves: at a pole no digit is certain
+_STEPS = 1e-7, 1e-10, 3e-13  # relative steps by which that change is measured
 _PER_REFINEMENT = 8  # modes that the coarsest steps are meant for
 
 
@@ -189,8 +190,8 @@ class Model:
             levels = (first, 2 * first, 4 * first) if np.any(self.beam.varies(family)) else (first,)
             chains = [self.forced(family, refinement) for refinement in levels]
             H[rows], error[rows] = judged(self.beam, chains, omega)
-            moved = np.abs(chains[-1].at(omega * (1 + _STEP)) - chains[-1].at(omega)) / _STEP
-            error[rows] += ROUNDING * (moved + np.abs(H[rows]))
+            moved, noise = _moved(chains[-1], omega, chains[-1].at(omega))
+            error[rows] += ROUNDING * (moved + np.abs(H[rows])) + noise
         return H, error
 
     def use(self, at: Callable[[Array], Numbers]) -> None:
@@ -231,11 +232,25 @@ def rounding(forced: Forced, omega: Array, H: Numbers) -> Array:
     size = np.abs(rows)
     largest = np.argmax(size, axis=-1)
     steepest = np.argmax(np.abs(np.diff(rows)), axis=-1) if last else largest
-    beside = np.concatenate([largest, largest + 1, steepest, steepest + 1])
+    beside = np.concatenate([[0, last], largest, largest + 1, steepest, steepest + 1])
     worst = np.unique(np.minimum(beside, last))
-    moved = np.abs(forced.at(omega[worst] * (1 + _STEP)) - H[:, :, worst]) / _STEP
+    moved, noise = _moved(forced, omega[worst], H[:, :, worst])
     most = np.max(size, axis=-1).reshape(H.shape[:2])
-    return np.asarray(ROUNDING * (np.max(moved, axis=-1) + most))
+    error = ROUNDING * (np.max(moved, axis=-1) + most) + np.max(noise, axis=-1)
+    lost = np.any(ROUNDING * moved > _LOST * np.abs(H[:, :, worst]) + noise, axis=-1)
+    return np.where(lost, np.inf, error)
+
+
+def _moved(forced: Forced, omega: Array, H: Numbers) -> tuple[Array, Array]:
+    """Return how fast responses move with a relative change of frequency, and what is noise.
+
+    The fastest of three steps: beside a resonance without damping the longer ones leap over it.
+    """
+    steps = np.array(_STEPS)
+    far, noise = forced.at_with_noise((omega * (1 + steps[:, None])).ravel())
+    far, noise = (part.reshape(*H.shape[:2], len(steps), -1) for part in (far, noise))
+    moved = np.abs(far - H[:, :, None]) / steps[:, None]
+    return np.max(moved, axis=2), np.max(noise, axis=2)
 
 
 @out_of_range_is_an_error()

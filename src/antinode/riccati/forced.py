@@ -36,6 +36,7 @@ from .points import Point, moving
 from .shapes import gauss_rule, kept_nodes
 
 _LARGEST_STACK = 2_000_000  # complex matrix entries held at once
+_POLE = 1e-16  # beside the largest, what stands for a determinant that is nothing
 _BLOCK_PHASE = 1.25  # of a wave, in radians, that is multiplied without a new basis
 
 
@@ -233,7 +234,10 @@ class _Sweep:
         wall = np.zeros_like(last.p)
         for row in self.law.ends[chain.right]:
             wall[:, row] = self._ground(row)
-        return np.asarray(np.linalg.solve(C @ last.F, C @ (wall - last.p)))
+        closing = C @ last.F
+        for lane in np.flatnonzero(np.linalg.det(closing) == 0.0):  # a pole: as near as numbers are
+            closing[lane] += _POLE * np.max(np.abs(closing[lane])) * np.eye(closing.shape[-1])
+        return np.asarray(np.linalg.solve(closing, C @ (wall - last.p)))
 
     def _pass_node(self, point: Point | None, force: Array | None) -> None:
         """Pass supports, then masses, springs and forces, then a joint."""

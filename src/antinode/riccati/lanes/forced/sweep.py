@@ -62,6 +62,7 @@ from .segments import (
 from .supports import hold
 
 _Y, _PSI, _M, _Q = (row * PAIR for row in range(4))
+_POLE = 1e-16
 _ROW = 2 * PAIR  # of the 2 x 2 coefficients, and of the coefficients of a case
 
 
@@ -353,6 +354,9 @@ def _close(chain, ends, group, w, room):
         c00, c01 = _condition(wanted, 0, w, FIRST, lane), _condition(wanted, 0, w, SECOND, lane)
         c10, c11 = _condition(wanted, 1, w, FIRST, lane), _condition(wanted, 1, w, SECOND, lane)
         whole = c00 * c11 - c01 * c10
+        if whole.real == 0.0 and whole.imag == 0.0:  # a pole: as near as numbers are
+            size = square(c00) + square(c01) + square(c10) + square(c11)
+            whole = complex(_POLE * size, 0.0)
         for case in range(len(chain.ground)):
             z, a = room.cases[case], room.coefficients[case]
             r0, r1 = -_condition(wanted, 0, z, 0, lane), -_condition(wanted, 1, z, 0, lane)
