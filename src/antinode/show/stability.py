@@ -109,15 +109,26 @@ def show_influence(
     out: Console, critical: Sequence[CriticalLoad], moved: Sequence[Influence | None]
 ) -> None:
     """Print what moves each critical factor, in percent for each percent."""
-    headings = "% of the factor for each %", "EI", "mass", "springs", "point masses"
+    told = [own for own in moved if own is not None]
+    names = [n for n in _SHARES if n in _ALWAYS or any(np.any(own.columns[n]) for own in told)]
+    headings = "% of the factor for each %", *(_SHARES[n] for n in names), "springs", "point masses"
     table = new_table(*headings, left=[0])
     for each, own in zip(critical, moved, strict=True):
         if own is not None:
-            shares = np.sum(own.bending_stiffness), np.sum(own.mass_per_length)
             name = f"{each.kind} at {each.load_factor:.6g}"
-            numbers = (*shares, own.springs, own.point_masses)
+            numbers = *(np.sum(own.columns[n]) for n in names), own.springs, own.point_masses
             table.add_row(name, *(f"{v + 0.0:.4f}" for v in numbers))
     out.print(table)
+
+
+_ALWAYS = "bending_stiffness", "mass_per_length"
+_SHARES = {
+    "bending_stiffness": "EI",
+    "shear_stiffness": "kGA",
+    "mass_per_length": "mass",
+    "rotary_inertia": "rho I",
+    "foundation_stiffness": "foundation",
+}
 
 
 def show_along(out: Console, result: Along) -> None:

@@ -6,8 +6,12 @@ their right and left eigenvectors v, w have ``w^T M v = 0``. Either way, as p mo
     w^T (dK/da - lambda dM/da) v da + w^T dK/dp v dp = 0
 
 and the derivative of lambda, which is none at a flutter, is not needed. All forces go with p, so
-that with ``w^T (K - lambda M) v = 0`` the shares of bending stiffness, mass, springs and point
+that with ``w^T (K - lambda M) v = 0`` the shares of stiffness, mass, foundation, springs and point
 masses add up to 1.
+
+In shear, with ``V = Q - N psi`` of either vector and flexibility s, ``w^T K v`` holds ``s V_w V_v``:
+its share is that of kGA in Haringx' form, where s = 1/kGA; in Engesser's, s = 1/(kGA - N), it is
+``(1 + N s)`` times as much, and the force's so much less.
 """
 
 from __future__ import annotations
@@ -30,6 +34,7 @@ from antinode.riccati.chain import Chain
 from antinode.riccati.damped.chain import Damped
 from antinode.riccati.damped.energies import point_forms, products
 from antinode.riccati.damped.shapes import complex_states
+from antinode.riccati.laws import Squares
 from antinode.riccati.shapes import split_for
 
 from .result import CriticalLoad
@@ -46,33 +51,46 @@ class Influence:
     Attributes
     ----------
     bending_stiffness, mass_per_length : array, shape (intervals,)
-        Of each interval between stations, all of it multiplied.
+        Of each interval between stations, all of it multiplied; added mass counts as mass.
     springs, point_masses : float
         Of all of them together, supports with a stiffness and joints that turn among the springs.
+    shear_stiffness, rotary_inertia, foundation_stiffness : array, shape (intervals,)
+        As of the bending stiffness; zero where there is none.
     """
 
     bending_stiffness: Array
     mass_per_length: Array
     springs: float
     point_masses: float
+    shear_stiffness: Array
+    rotary_inertia: Array
+    foundation_stiffness: Array
+
+    @property
+    def columns(self) -> dict[str, Array]:
+        """All that belongs to intervals, by name."""
+        names = (
+            "bending_stiffness",
+            "mass_per_length",
+            "shear_stiffness",
+            "rotary_inertia",
+            "foundation_stiffness",
+        )
+        return {name: getattr(self, name) for name in names}
 
     @property
     def total(self) -> float:
         """The sum of all, which is 1 but for rounding: a check."""
-        parts = np.sum(self.bending_stiffness), np.sum(self.mass_per_length)
-        return float(sum(parts)) + self.springs + self.point_masses
+        parts = [float(np.sum(values)) for values in self.columns.values()]
+        return sum(parts) + self.springs + self.point_masses
 
     def to_dict(self) -> dict[str, object]:
         """Return it as plain numbers for JSON."""
         return {
-            "bending_stiffness": float(np.sum(self.bending_stiffness)),
-            "mass_per_length": float(np.sum(self.mass_per_length)),
+            **{name: float(np.sum(values)) for name, values in self.columns.items()},
             "springs": self.springs,
             "point_masses": self.point_masses,
-            "by_interval": {
-                "bending_stiffness": self.bending_stiffness.tolist(),
-                "mass_per_length": self.mass_per_length.tolist(),
-            },
+            "by_interval": {name: values.tolist() for name, values in self.columns.items()},
         }
 
 
@@ -89,18 +107,12 @@ def critical_influence(problem: Beam | HasBeam, critical: CriticalLoad) -> Influ
     Raises
     ------
     InputError
-        If the beam has shear, rotary inertia or a foundation, or the critical load is a rotation
-        that diverges at once.
+        If the critical load is a rotation that diverges at once.
     ComputationError
         If a motion that rests hides the one that diverges.
     """
     beam = problem if isinstance(problem, Beam) else problem.beam()
     refuse_feedback(beam.attachments, BENDING, "derivatives of critical loads")
-    if not beam.chain(BENDING).is_plain and not beam.loads_turn:
-        raise InputError(
-            f"{beam.name}: derivatives of critical loads are those of Euler-Bernoulli's theory "
-            'without a foundation; set theory = "euler_bernoulli", or vary the input (--along)'
-        )
     if critical.load_factor == 0.0:
         raise InputError(
             "a rotation that diverges at once has no factor whose derivatives could be told"
@@ -123,10 +135,7 @@ def critical_influence(problem: Beam | HasBeam, critical: CriticalLoad) -> Influ
 
 
 def _distance(a: Influence, b: Influence) -> float:
-    pairs = (
-        (a.bending_stiffness, b.bending_stiffness),
-        (a.mass_per_length, b.mass_per_length),
-    )
+    pairs = zip(a.columns.values(), b.columns.values(), strict=True)
     return max(float(np.max(np.abs(one - other))) for one, other in pairs)
 
 
@@ -136,25 +145,41 @@ def _of_chain(beam: Beam, chain: Chain, omega2: float) -> Influence:
     damped, s = Damped(fine), np.array([np.sqrt(complex(-omega2))])
     right, left = complex_states(damped, s), complex_states(damped.transposed, s)
     forms = products(damped, fine, s, right, left)
-    strain = forms.squares.moment[:, 0] / fine.stiffness
-    mass = -omega2 * fine.mass * forms.squares.displacement[:, 0]
+    strain = _strain(beam, fine, forms.squares)
+    inertia_of = {
+        "mass_per_length": fine.mass * forms.squares.displacement[:, 0],
+        "rotary_inertia": fine.columns.get("rotary_inertia", 0.0) * forms.squares.turn[:, 0],
+    }
+    shares = strain | {name: -omega2 * values for name, values in inertia_of.items()}
     springs, masses = 0j, 0j
     for point in damped.base.points:
         inertia, elastic, _ = point_forms(fine, replace(point, own_load=0.0), right, left)
         springs, masses = springs + elastic[0], masses - omega2 * inertia[0]
-    forces = forms.stiffness[0] - np.sum(strain) - springs
+    forces = forms.stiffness[0] - sum(np.sum(values) for values in strain.values()) - springs
     owner = np.searchsorted(beam.x, beam.x[0] + (fine.nodes[1:] + fine.nodes[:-1]) / 2) - 1
 
     def by_interval(values: Array) -> Array:
-        shares = (-values / forces).real
-        return np.asarray(np.bincount(owner, shares, minlength=len(beam.x) - 1), dtype=float)
+        own = (-values / forces).real
+        return np.asarray(np.bincount(owner, own, minlength=len(beam.x) - 1), dtype=float)
 
     return Influence(
-        by_interval(strain),
-        by_interval(mass),
-        float((-springs / forces).real),
-        float((-masses / forces).real),
+        springs=float((-springs / forces).real),
+        point_masses=float((-masses / forces).real),
+        **{name: by_interval(values) for name, values in shares.items()},
     )
+
+
+def _strain(beam: Beam, chain: Chain, squares: Squares) -> dict[str, Array]:
+    """Return the shares of w^T K v of each segment that do not move with the force, by column."""
+    columns = chain.columns
+    soft = np.asarray(columns.get("shear", np.zeros(len(chain.length))))
+    if beam.has_shear and beam.shear_form == "engesser":
+        soft = soft * (1 + chain.axial_force * soft)
+    return {
+        "bending_stiffness": squares.moment[:, 0] / chain.stiffness,
+        "shear_stiffness": soft * squares.shear[:, 0],
+        "foundation_stiffness": columns.get("foundation", 0.0) * squares.displacement[:, 0],
+    }
 
 
 def influences(beam: Beam, critical: tuple[CriticalLoad, ...]) -> list[Influence | None]:
