@@ -82,7 +82,7 @@ def rotation_warning(beam: Beam) -> str:
     """Say why the rotation of a body that may turn diverges."""
     if any(beam.following()):
         return ROTATION_NOT_TURNED_BACK
-    net, h = np.mean(beam.axial_force, axis=1), beam.x[1:] - beam.x[:-1]
+    net, h = beam.axial_force.sum(axis=1), beam.x[1:] - beam.x[:-1]
     if beam.axial_acceleration:
         k = np.arange(len(h))
         ends = [beam.axial_force_at(k, np.full(len(k), t)) for t in (0.0, 0.5, 1.0)]

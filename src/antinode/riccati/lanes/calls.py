@@ -51,6 +51,7 @@ driven = DrivenChain
 PARTED = 1e-7
 """Relative distance of roots below which frames part them, and their shapes."""
 
+_FLOORS = np.concatenate([-(10.0 ** np.arange(-16, -12)), 10.0 ** np.arange(-16, -12)])
 _MANY = 64  # chains of a batch from which integrals over shapes are worth their time
 _GUESSED = 1e-8  # relative width of brackets of the chain in the middle of a batch
 _NO_MORE = np.empty((1, 0))
@@ -343,22 +344,26 @@ def _by_determinants(
             found += [Eigenvalue(k + 1, 0.0, (-distance, distance), counts) for k in range(*counts)]
         if number:
             roots = ready.roots(below, number, width)
-            near = np.diff(roots.omega2) <= PARTED * np.abs(roots.omega2[1:])
-            if roots.reason != CERTIFIED or np.any(near):
+            if roots.reason != CERTIFIED or _nearly_coincide(roots.omega2):
                 return None
             found += _listed(roots, below)
     return found
 
 
+def _nearly_coincide(omega2: Array) -> bool:
+    after = omega2[1:]
+    return bool((after - omega2[:-1] <= PARTED * np.abs(after)).any())
+
+
 def _floor(ready: SingleChain, scale: float, zeros: int) -> tuple[float, int] | None:
     """Return the least distance from zero at which the counts make sense, and the lower count."""
-    floors = scale * 10.0 ** np.arange(-16, -12)
-    count = ready(np.concatenate([-floors, floors])).below
+    places = scale * _FLOORS
+    count = ready(places).below.tolist()
     if not zeros:
-        return (0.0, int(count[4])) if count[0] == count[4] else None
-    for floor, low, high in zip(floors, count[:4], count[4:], strict=True):
+        return (0.0, count[4]) if count[0] == count[4] else None
+    for floor, low, high in zip(places[4:].tolist(), count[:4], count[4:], strict=True):
         if high - low >= zeros:
-            return (float(floor), int(low)) if high - low == zeros else None
+            return (floor, low) if high - low == zeros else None
     return None
 
 

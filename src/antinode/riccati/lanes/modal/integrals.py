@@ -43,14 +43,14 @@ _PEAKS, _TURNS, _NEAR = 4, 3, 1e-7
 @compiled
 def _scale(states, i, k, work, here):
     """Set the states of node i in the units of the lanes; those beyond the last mode are zero."""
+    for at in range(4 * LANES):
+        here[at] = 0.0
     for lane in range(k):
         state = states[i, lane]
         for row in range(4):
-            at = row * LANES + lane
-            here[at] = state[row] * work[PER_UNIT + at]
-    for lane in range(k, LANES):
-        for row in range(4):
-            here[row * LANES + lane] = 0.0
+            here[row * LANES + lane] = state[row]
+    for at in range(4 * LANES):
+        here[at] *= work[PER_UNIT + at]
 
 
 @apart
@@ -72,7 +72,6 @@ def _add_squares(force, weight, there, work, square):
 @compiled
 def _set_squares(chain, states, shares, weights, terms, room):
     """Integrate the squares of states over every segment, by Gauss points and exact states."""
-    wide_vectors()
     work, own, k = room.work, room.own, states.shape[1]
     for i in range(len(chain.length)):
         h, square, column = chain.length[i], room.squares[i], own.columns[i]
@@ -88,20 +87,16 @@ def _set_squares(chain, states, shares, weights, terms, room):
 
 @compiled
 def _through(states, i, distance, terms, room):
-    """Set the states of all modes at a distance into a segment, in the units of the lanes."""
-    work, own = room.work, room.own
+    """Set the states of all modes at a distance into a segment, in SI, rows of lanes."""
+    work, own, there = room.work, room.own, room.there
     _scale(states, i, states.shape[1], work, room.here)
     transfer(
         *(distance, own.stiffness[i], own.coupling[i]),
         *(own.columns[i], terms, work, room.step),
     )
-    step(room.step, 1.0, room.here, room.there)
-
-
-@compiled
-def _found(lane, row, room):
-    """Return what `_through` found of a mode, in SI."""
-    return room.there[row * LANES + lane] * room.work[UNIT + row * LANES + lane]
+    step(room.step, 1.0, room.here, there)
+    for k in range(4 * LANES):
+        there[k] *= work[UNIT + k]
 
 
 @compiled
@@ -133,6 +128,7 @@ def integrate(chain, omega2, states, rules, longest, room):
 @compiled
 def _integrate(chain, omega2, states, rules, phase, room):
     """Set the integrals of squares, given the largest phase of a segment."""
+    wide_vectors()
     terms, which = _prepare(chain, omega2, phase, room), _rule(phase, rules)
     number = rules.numbers[which]
     shares, weights = rules.shares[which, :number], rules.weights[which, :number]
@@ -140,13 +136,13 @@ def _integrate(chain, omega2, states, rules, phase, room):
 
 
 @compiled
-def _point_energies(chain, states, room):
+def _point_energies(marks, points, states, work):
     """Add the points' shares: `riccati.points.lateral_energies`."""
-    work, last = room.work, len(states) - 1
+    last = len(states) - 1
     for i in range(len(states)):
-        if chain.marks[i] < 0:
+        if marks[i] < 0:
             continue
-        p = chain.points[chain.marks[i]]
+        p = points[marks[i]]
         arm = p[FIRST_MOMENT] / p[MASS] if p[MASS] != 0.0 else 0.0
         for lane in range(states.shape[1]):
             Y, turn, M = states[i, lane, 0], states[i, lane, 1], states[i, lane, 2]
@@ -195,17 +191,18 @@ def _sum_up(chain, states, beside, room):
         for lane in range(states.shape[1]):
             k = f + _REACH * LANES + lane
             work[k] = max(work[k], abs(states[i, lane, 0]))
-    _point_energies(chain, states, room)
+    if len(chain.points) > 0:
+        _point_energies(chain.marks, chain.points, states, work)
     for lane in range(LANES):
         work[f + _STIFFNESS * LANES + lane] -= work[f + _WORK * LANES + lane]
 
 
 @compiled
-def _slope(chain, i, psi, Q):
+def _slope(more, i, psi, Q):
     """Return Y' = alpha psi - s Q."""
-    if chain.more.shape[1] == 0:
+    if more.shape[1] == 0:
         return psi
-    return (1.0 + chain.more[SHEAR_TURN, i]) * psi - chain.more[SHEAR, i] * Q
+    return (1.0 + more[SHEAR_TURN, i]) * psi - more[SHEAR, i] * Q
 
 
 @compiled
@@ -226,14 +223,14 @@ def _cubic_peak(Y, s, after, t):
 
 
 @compiled
-def _height(chain, states, i, lane, place, terms, room):
+def _height(h, more, states, i, lane, place, terms, room):
     """Return the displacement of a peak near a place of a segment: secants improve the place."""
-    h, height, before = chain.length[i], 0.0, 0.0
-    slope = _slope(chain, i, states[i, lane, 1], states[i, lane, 3])
+    z, height, before = room.there, 0.0, 0.0
+    slope = _slope(more, i, states[i, lane, 1], states[i, lane, 3])
     for _ in range(_TURNS):
         _through(states, i, h * place, terms, room)
-        height = max(height, abs(_found(lane, 0, room)))
-        here = _slope(chain, i, _found(lane, 1, room), _found(lane, 3, room))
+        height = max(height, abs(z[lane]))
+        here = _slope(more, i, z[LANES + lane], z[3 * LANES + lane])
         change = here - slope
         if change == 0.0:
             break
@@ -258,35 +255,37 @@ def _keep_highest(most, height, place, i):
 
 
 @compiled
-def _find_peaks(chain, states, terms, room):
+def _find_peaks(length, marks, more, states, terms, room):
     """Set the largest displacement at nodes, on either side of them, and the highest peaks."""
+    largest, z = room.largest, room.there
     for lane in range(states.shape[1]):
-        room.largest[lane] = abs(states[len(chain.length), lane, 0])
+        largest[lane] = abs(states[len(length), lane, 0])
         for k in range(_PEAKS):
             room.peaks[lane, k, 0] = 0.0
-    for i in range(len(chain.length)):
-        h, beside = chain.length[i], chain.marks[i + 1] >= 0
+    for i in range(len(length)):
+        h, beside = length[i], marks[i + 1] >= 0
         if beside:
             _through(states, i, h, terms, room)
         for lane in range(states.shape[1]):
             here, there = states[i, lane], states[i + 1, lane]
             Y, after, psi, Q = here[0], there[0], there[1], there[3]
             if beside:
-                after, psi, Q = _found(lane, 0, room), _found(lane, 1, room), _found(lane, 3, room)
-            room.largest[lane] = max(room.largest[lane], abs(Y), abs(after))
-            s, t = _slope(chain, i, here[1], here[3]) * h, _slope(chain, i, psi, Q) * h
+                after, psi, Q = z[lane], z[LANES + lane], z[3 * LANES + lane]
+            largest[lane] = max(largest[lane], abs(Y), abs(after))
+            s, t = _slope(more, i, here[1], here[3]) * h, _slope(more, i, psi, Q) * h
             if s * t < 0.0:
                 place, height = _cubic_peak(Y, s, after, t)
                 _keep_highest(room.peaks[lane], height, place, i)
 
 
 @compiled
-def _largest(chain, states, lane, terms, room):
+def _largest(length, more, states, lane, terms, room):
     """Return the largest displacement of a mode: `riccati.normalised.largest_displacements`."""
     largest, most = room.largest[lane], room.peaks[lane]
     for k in range(_PEAKS):
         if most[k, 0] > 0.0:
-            height = _height(chain, states, int(most[k, 2]), lane, most[k, 1], terms, room)
+            i = int(most[k, 2])
+            height = _height(length[i], more, states, i, lane, most[k, 1], terms, room)
             largest = max(largest, height)
     return largest
 
@@ -305,38 +304,35 @@ def _sign(states, lane, largest):
 
 
 @compiled
-def _give(chain, states, places, terms, room, grid):
+def _give(length, states, places, terms, room, grid):
     """Set the states at places; where one is doubled, that of its left side first."""
-    node, at, middle = 0, 0.0, chain.length[0] / 2.0
+    node, at, middle = 0, 0.0, length[0] / 2.0
     for p in range(len(places)):
-        while node < len(chain.length) and middle < places[p]:
-            at += chain.length[node]
+        while node < len(length) and middle < places[p]:
+            at += length[node]
             node += 1
-            if node < len(chain.length):
-                middle = at + chain.length[node] / 2.0
+            if node < len(length):
+                middle = at + length[node] / 2.0
         doubled = p + 1 < len(places) and places[p + 1] == places[p]
         if doubled:
-            _through(states, node - 1, chain.length[node - 1], terms, room)
+            _through(states, node - 1, length[node - 1], terms, room)
         for lane in range(states.shape[1]):
             given, here = grid[lane, p], states[node, lane]
             for row in range(4):
-                given[row] = _found(lane, row, room) if doubled else here[row]
+                given[row] = room.there[row * LANES + lane] if doubled else here[row]
 
 
 @compiled
-def _take(chain, room, sums, sign):
-    """Add the forms in the room, less where the sign says so; sizes always."""
+def _take(work, sums, sign):
+    """Add the forms that were summed up, less where the sign says so; sizes always."""
     for lane in range(sums.shape[1]):
         for row in range(_GIVEN):
-            value = room.work[FORMS_OF + row * LANES + lane]
+            value = work[FORMS_OF + row * LANES + lane]
             sums[row, lane] += value if row == _SIZE else sign * value
-        if len(chain.points) > 0 and chain.following[0] == 0.0 and chain.following[1] == 0.0:
-            of_force = room.work[FORMS_OF + _WORK * LANES + lane]
-            sums[_STRAIN, lane] = sums[_STIFFNESS, lane] + of_force
 
 
 @compiled
-def _turning_ends(chain, pair, sums):
+def _turning_ends(following, pair, sums):
     """Add what following ends do to the stiffness, and quarter all: `energies_between`."""
     last = pair.shape[1] - 1
     for lane in range(sums.shape[1]):
@@ -345,7 +341,7 @@ def _turning_ends(chain, pair, sums):
         for side in range(2):
             i = 0 if side == 0 else last
             plus, minus = pair[0, i, lane], pair[1, i, lane]
-            turn = chain.following[side] * (plus[1] + minus[1]) * (plus[0] - minus[0]) / 4.0
+            turn = following[side] * (plus[1] + minus[1]) * (plus[0] - minus[0]) / 4.0
             sums[_STIFFNESS, lane] += turn if side == 1 else -turn
 
 
@@ -359,22 +355,27 @@ def _set_forms(chain, omega2, states, pair, beside, rules, phase, room, sums):
         given = pair[which] if len(pair) > 0 else states
         _integrate(chain, omega2, given, rules, phase, room)
         _sum_up(chain, given, beside, room)
-        _take(chain, room, sums, 1.0 if which == 0 else -1.0)
+        _take(room.work, sums, 1.0 if which == 0 else -1.0)
     if len(pair) > 0:
-        _turning_ends(chain, pair, sums)
+        _turning_ends(chain.following, pair, sums)
+    elif len(chain.points) > 0:  # what springs and joints store is strain, too
+        for lane in range(sums.shape[1]):
+            of_force = room.work[FORMS_OF + _WORK * LANES + lane]
+            sums[_STRAIN, lane] = sums[_STIFFNESS, lane] + of_force
 
 
 @compiled
 def normalise(chain, omega2, states, pair, asked, rules, longest, room, sums, grid):
     """Scale modes as `riccati.normalised.normalise` does; tell whether no segment is too long."""
+    wide_vectors()
     phase = longest_phase(chain, omega2)
     if not phase <= longest:
         return False
     _set_forms(chain, omega2, states, pair, asked.beside, rules, phase, room, sums)
     terms = terms_for(phase)
-    _find_peaks(chain, states, terms, room)
+    _find_peaks(chain.length, chain.marks, chain.more, states, terms, room)
     for lane in range(states.shape[1]):
-        largest = _largest(chain, states, lane, terms, room)
+        largest = _largest(chain.length, chain.more, states, lane, terms, room)
         size = math.sqrt(abs(sums[_MASS, lane])) if asked.by_mass else largest
         room.factor[lane] = _sign(states, lane, largest) / size
         for row in range(_GIVEN):
@@ -384,5 +385,5 @@ def normalise(chain, omega2, states, pair, asked, rules, longest, room, sums, gr
             state, factor = states[i, lane], room.factor[lane]
             for row in range(4):
                 state[row] *= factor
-    _give(chain, states, asked.places, terms, room, grid)
+    _give(chain.length, states, asked.places, terms, room, grid)
     return True

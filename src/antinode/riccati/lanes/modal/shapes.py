@@ -98,45 +98,48 @@ def _orthonormalise(a, b, back):
 
 
 @compiled
-def _from_left(chain, adjoint, room):
+def _pass(marks, points, i, side, work, a, b):
+    """Pass the columns of a frame through what stands at a node, if anything does."""
+    if marks[i] >= 0:
+        _pass_point(points[marks[i]], side, work, a)
+        _pass_point(points[marks[i]], side, work, b)
+
+
+@compiled
+def _from_left(chain, adjoint, U, work, F, back):
     """Carry the frame of the left end along; that of a node belongs to its right side."""
     wide_vectors()
-    n, marks, F, work = len(chain.length), chain.marks, room.left, room.work
+    n, marks, points = len(chain.length), chain.marks, chain.points
     for i in range(n + 1):
         a, b = F[i, 0], F[i, 1]
         if i == 0:
             _admit(chain.left, chain.following[0], adjoint, work, a, b)
         else:
-            step(room.U[i - 1], 1.0, F[i - 1, 0], a)
-            step(room.U[i - 1], 1.0, F[i - 1, 1], b)
-        if marks[i] >= 0 and i < n:
-            _pass_point(chain.points[marks[i]], 1.0, work, a)
-            _pass_point(chain.points[marks[i]], 1.0, work, b)
-        _orthonormalise(a, b, room.back_left[i])
+            step(U[i - 1], 1.0, F[i - 1, 0], a)
+            step(U[i - 1], 1.0, F[i - 1, 1], b)
+        if i < n:
+            _pass(marks, points, i, 1.0, work, a, b)
+        _orthonormalise(a, b, back[i])
 
 
 @compiled
-def _from_right(chain, adjoint, room):
+def _from_right(chain, adjoint, U, work, F, back, frame):
     """Carry the frame of the right end along; at the last node it belongs to the left side."""
     wide_vectors()
-    n, marks, F, work = len(chain.length), chain.marks, room.right, room.work
-    beside_a, beside_b = room.frame[0], room.frame[1]
+    n, marks, points, c, d = len(chain.length), chain.marks, chain.points, frame[0], frame[1]
     for i in range(n, -1, -1):
         a, b = F[i, 0], F[i, 1]
         if i == n:
             _admit(chain.right, chain.following[1], adjoint, work, a, b)
-            if marks[n] >= 0:
-                _pass_point(chain.points[marks[n]], -1.0, work, a)
-                _pass_point(chain.points[marks[n]], -1.0, work, b)
+            _pass(marks, points, n, -1.0, work, a, b)
         else:
             for k in range(4 * LANES):
-                beside_a[k], beside_b[k] = F[i + 1, 0, k], F[i + 1, 1, k]
-            if marks[i + 1] >= 0 and i + 1 < n:
-                _pass_point(chain.points[marks[i + 1]], -1.0, work, beside_a)
-                _pass_point(chain.points[marks[i + 1]], -1.0, work, beside_b)
-            step(room.U[i], -1.0, beside_a, a)
-            step(room.U[i], -1.0, beside_b, b)
-        _orthonormalise(a, b, room.back_right[i])
+                c[k], d[k] = F[i + 1, 0, k], F[i + 1, 1, k]
+            if i + 1 < n:
+                _pass(marks, points, i + 1, -1.0, work, c, d)
+            step(U[i], -1.0, c, a)
+            step(U[i], -1.0, d, b)
+        _orthonormalise(a, b, back[i])
 
 
 @compiled
@@ -241,13 +244,13 @@ def set_states(chain, omega2, adjoint, longest, room, states):
     n, work, own, z = len(chain.length), room.work, room.own, room.z
     scale_columns(chain, omega2, set_units(chain, omega2, work), work, own)
     set_transfers(chain, own, terms_for(phase), work, room.U)
-    _from_right(chain, adjoint, room)
+    _from_right(chain, adjoint, room.U, work, room.right, room.back_right, room.frame)
     follows = chain.following[0] != 0.0
-    _from_left(chain, adjoint != follows, room)
+    _from_left(chain, adjoint != follows, room.U, work, room.left, room.back_left)
     _meet(n, room.left, room.right, work)
     _share(room.left, room.right, room.here, work)
     if follows:
-        _from_left(chain, adjoint, room)
+        _from_left(chain, adjoint, room.U, work, room.left, room.back_left)
     for i in range(n + 1):
         for k in range(4 * LANES):
             z[i, k] = 0.0
