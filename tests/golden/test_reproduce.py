@@ -12,16 +12,21 @@ import sys
 import tomllib
 from html.parser import HTMLParser
 from importlib.resources import files
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
 from antinode.paper.comparison import Bounds, compare, read_bounds, size_of
-from antinode.paper.page import read_notes
+from antinode.paper.mode_figures import shapes_y
+from antinode.paper.page import page, read_notes
+from antinode.paper.scene import Scene
 from antinode.paper.tables import BURN_FRACTION, TABLES, read_rows
+from antinode.paper.vehicle_figures import deviations
 from cli_run import python, refused, run
 
+ROOT = Path(__file__).resolve().parents[2]
 HELD_OUT = {
     (1, "cavitation_number", 0.014),
     (1, "cavitation_number", 0.022),
@@ -275,3 +280,32 @@ def test_reproduce_says_what_it_needs(tmp_path, monkeypatch):
     refused(run("reproduce", "--out", tmp_path / "new"), "pip install 'antinode[plot]'")
     assert not (tmp_path / "new").exists()
     assert run("reproduce").code == 0
+
+
+def test_the_bands_of_figures_4_and_6_are_those_of_the_record():
+    record = (ROOT / "validation" / "paper_vehicle.md").read_text(encoding="utf-8")
+    known = deviations()
+    for column in ("mass_per_length", "bending_stiffness"):
+        words = column.replace("_", " ")
+        told = re.findall(rf"^\| {words} at ([\d.]+) m \| ([\d.]+) +\| ([\d.]+) ", record, re.M)
+        assert [float(x) for x, *_ in told] == list(known["x"])
+        shares = [float(sd) / float(value) for _, value, sd in told]
+        assert list(known[column]) == pytest.approx(shares, abs=1e-4)
+
+
+def test_the_page_says_what_is_doubtful_and_what_was_chosen(comparison):
+    shown = page(comparison, ())
+    misprint = shown.index("misprint? 20.7051")
+    assert shown.index('id="table-4"') < misprint < shown.index('id="table-5"')
+    assert "3,580 kg/m&sup3;" in shown
+    assert "<code>axial_force = element_midpoint</code>; by default exact" in shown
+
+
+def test_modes_without_axial_force_stand_beside_those_under_it(comparison):
+    scene = Scene(comparison)
+    figure, caption = shapes_y(scene)
+    lines = [line for line in figure.axes[0].lines if len(line.get_xdata()) == 401]
+    assert len(lines) == 6
+    under, without = (line.get_ydata() for line in lines[:2])
+    assert 1e-3 < np.max(np.abs(under - without)) < 0.2
+    assert "without axial force" in caption

@@ -48,8 +48,9 @@ def characteristic(scene: Scene) -> Drawn:
         "74 and 80, bending times longitudinal, each scaled by the wave number at its frequency; "
         "the vertical scale is linear near zero and logarithmic from about 0.1 on. Roots are the "
         "natural frequencies. Poles lie where the vehicle with its tail clamped would vibrate; "
-        "thanks to the product of signs both sides of a pole go the same way. (b) The determinant "
-        "of the transfer matrix method, eq. 66, over the size of its matrix: the same roots "
+        "thanks to the product of signs both sides of a pole go the same way. The rotation of the "
+        "free vehicle diverges: its ω² is negative and has no place on this axis. (b) The "
+        "determinant of the transfer matrix method, eq. 66, over the size of its matrix: the same roots "
         "without poles, but it sinks with frequency towards the rounding of the computer, where "
         "it loses its sign. (c), (d) Close-ups of (a): a pole stands right beside a root."
     )
@@ -167,6 +168,8 @@ class StateFigure:
         Along the vertical axis.
     caption : str
         With ``{at}`` for the cavitation number and ``{largest}`` for the amplitude.
+    beside : bool
+        Whether the same without axial force is drawn thinly beside it.
     """
 
     family: FamilyName
@@ -174,6 +177,7 @@ class StateFigure:
     factor: float
     label: str
     caption: str
+    beside: bool = False
 
     def __call__(self, scene: Scene) -> Drawn:
         """Draw it."""
@@ -187,11 +191,17 @@ class StateFigure:
         x = np.linspace(0, scene.modal.vehicle.length, 401)
         states = scene.result.at(x, self.family)
         columns = {m.name: k for k, m in enumerate(scene.result.family(self.family))}
+        plain = scene.unloaded.at(x, self.family) if self.beside else None
+        places = {m.name: k for k, m in enumerate(scene.unloaded.family(self.family))}
         for axes, first, mark in ((panels[0], 0, "a"), (panels[1], 3, "b")):
             for k, dashes in zip(range(first, first + 3), ("-", "--", "-."), strict=True):
                 values = states[:, columns[modes[k].name], self.index] * _AMPLITUDE * self.factor
                 text = f"{modes[k].name}\n{modes[k].frequency_hz:.3f} Hz"
                 axes.plot(x, values, color=COLOURS[k], linestyle=dashes, label=text)
+                if plain is not None:
+                    scale = _AMPLITUDE * self.factor
+                    without = plain[:, places[modes[k].name], self.index] * scale
+                    axes.plot(x, without, color=INK, linewidth=0.6, zorder=1.5)
             zero_line(axes)
             letter(axes, f"modes {first + 1} to {first + 3}", mark)
             axes.set_ylabel(self.label)
@@ -216,7 +226,8 @@ shapes_y = StateFigure(
     1e3,
     "Y [mm]",
     "Bending modes {at} under the axial force: lateral displacement Y (eq. 49 and 81), positive "
-    "up, for a largest displacement of 1 mm.",
+    "up, for a largest displacement of 1 mm. Thin: the same without axial force.",
+    beside=True,
 )
 shapes_theta = StateFigure(
     BENDING,
@@ -224,7 +235,8 @@ shapes_theta = StateFigure(
     1e3,
     r"$\theta_z$ [mrad]",
     "Rotation θ_z = dY/dx (eq. 52) {largest}, {at}. x runs aft, so that a positive rotation is "
-    "nose-down.",
+    "nose-down. Thin: the same without axial force.",
+    beside=True,
 )
 forces_x = StateFigure(
     LONGITUDINAL,

@@ -9,6 +9,9 @@ from html import escape
 from importlib.resources import files
 from string import Template
 
+import numpy as np
+
+from antinode.vehicle.case import Case
 from antinode.version import __version__
 
 from .comparison import Comparison, Line, size_of, within
@@ -18,6 +21,9 @@ from .terminal import verdict
 
 Drawing = tuple[Plate, str, str]
 """A plate with its SVG and its caption."""
+
+MISPRINTS = {(4, 5.8): "bending 3: misprint? 20.7051 stands beside 33.7051, and fits give 20.714"}
+"""Table and value of a row with a number that the others contradict, and what is said there."""
 
 _SYMBOL = re.compile(r"\b([^\W\d_]'?)_(\w+)\b")
 _WORDS = ((r"\bsigma\b", "σ"), (r"\balpha\b", "α"), (r"\bomega\b", "ω"), (r"\btheta\b", "θ"))
@@ -37,7 +43,26 @@ def page(comparison: Comparison, drawings: Iterable[Drawing]) -> str:
         figures="\n".join(_figure(*drawing) for drawing in drawings),
         contents="\n".join(_contents()),
         notes="\n".join(_notes()),
+        choices="\n".join(_choices(comparison.lines[0].case)),
+        density=f"{mean_density(comparison.lines[0].case):,.0f}",
     )
+
+
+def mean_density(case: Case) -> float:
+    """Return the mass of the full vehicle over its volume [kg/m^3]."""
+    body = case.vehicle
+    radius = body.section(body.stations.x, 0.0).radius
+    slices = np.mean(radius**2, axis=1) * np.diff(body.stations.x)
+    volume = np.pi * float(np.sum(slices))
+    return float(body.mass_distribution(0.0).moments(body.length)[0]) / volume
+
+
+def _choices(case: Case) -> Iterator[str]:
+    defaults = type(case.model)().model_dump()
+    for key, value in case.model.model_dump().items():
+        if value is not None:
+            other = "" if value == defaults[key] else f"; by default {defaults[key]}"
+            yield f"<li><code>{key} = {escape(str(value))}</code>{escape(other)}</li>"
 
 
 def _contents() -> Iterator[str]:
@@ -85,6 +110,8 @@ def _table(table: Table, lines: tuple[Line, ...]) -> str:
 def _rows(table: Table, line: Line) -> str:
     held = line.row.held_out
     mark = '<br><span class="mark">held out</span>' if held else ""
+    if suspect := MISPRINTS.get((table.number, line.row.condition[table.varies])):
+        mark += f'<br><span class="mark">{suspect}</span>'
     paper = "".join(f"<td>{f:.4f}</td>" for f in line.row.frequencies_hz)
     ours = "".join(f"<td>{f:.4f}</td>" for f in line.antinode_hz)
     less = "".join(f"<td>{_percent(d)}</td>" for d in line.differences)

@@ -48,6 +48,11 @@ class Scene:
         return solve_one(self.modal, 6)
 
     @cached_property
+    def unloaded(self) -> ModalResult:
+        """Modes of the same beam without axial force."""
+        return solve_one(self.modal.beam().without_axial_force(), 6)
+
+    @cached_property
     def clamped_tail(self) -> ModalResult:
         """Modes of the same beam with its tail clamped: det S has its poles there."""
         beam = replace(self.modal.beam(), ends=Ends("free", "clamped"))

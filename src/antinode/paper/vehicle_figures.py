@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -134,10 +135,11 @@ def mass(scene: Scene) -> Drawn:
     """Draw the mass per length at the start."""
     total = scene.common.vehicle.mass_distribution(0.0).moments(_length(scene))[0]
     figure = _distribution(scene, "mass_per_length", 1.0, "mass per length m [kg/m]", BLUE)
+    _band(figure, scene, "mass_per_length", 1.0, BLUE)
     return figure, (
         "Mass per length along the vehicle at t = 0 s, the ρA of eq. 29 to 39, "
         f"{total:,.0f} kg in all. It was found from the frequencies of Tables 1 to 5; the paper's "
-        "own curve is lost."
+        "own curve is lost. " + _BAND
     )
 
 
@@ -155,10 +157,11 @@ def axial_stiffness(scene: Scene) -> Drawn:
 def bending_stiffness(scene: Scene) -> Drawn:
     """Draw EI."""
     figure = _distribution(scene, "bending_stiffness", 1e3, "bending stiffness EI [kN m²]", RED)
+    _band(figure, scene, "bending_stiffness", 1e3, RED)
     return figure, (
         "Bending stiffness EI of eq. 39 along the vehicle, found from the frequencies of Tables 1 "
         "to 5 together with the mass. Frequencies fix the two up to a common factor, which the "
-        "axial force sets."
+        "axial force sets. " + _BAND
     )
 
 
@@ -186,6 +189,28 @@ def _distribution(
     axes.set(xlabel=_X, ylabel=label, xlim=(0, _length(scene)), ylim=(0, None))
     drawn: Figure = figure
     return drawn
+
+
+_BAND = (
+    "Darker: one standard deviation either way, as the identification states it at 16 places, "
+    "straight between them; that the model is the authors' is assumed."
+)
+
+
+def deviations() -> dict[str, Array]:
+    """Return x [m] and the relative standard deviations of the identified mass and EI there."""
+    text = files("antinode.paper").joinpath("deviations.csv").read_text("utf-8").splitlines()
+    values = np.array([row.split(",") for row in text[1:]], dtype=float)
+    return dict(zip(text[0].split(","), values.T, strict=True))
+
+
+def _band(figure: Figure, scene: Scene, column: str, unit: float, colour: str) -> None:
+    known = deviations()
+    x, values = _profile(scene, column)
+    share = np.interp(x, known["x"], known[column])
+    low, high = values * (1 - share) / unit, values * (1 + share) / unit
+    figure.axes[0].fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0)
+    figure.axes[0].set_ylim(0, 1.05 * float(np.max(high)))
 
 
 def mass_states(scene: Scene) -> Drawn:
@@ -235,7 +260,8 @@ def cavities(scene: Scene) -> Drawn:
     return figure, (
         "Cavity against cavitation number, at the cavitator angle of "
         f"{np.degrees(c.cavitator_angle):.3g}° and V = {c.speed:g} m/s. (a) Walls by eq. 7-9 about "
-        "the offset axis; grey: the body and its fins. (b) Offset of the cavity axis: rise by "
+        "the offset axis; grey: the body, in the steps of its stations, and its fins. (b) Offset "
+        "of the cavity axis: rise by "
         "gravity h_g (eq. 10-12, made a length as the case's model says) and distortion h_σ by "
         "the cavitator's angle (eq. 13), which pushes the cavity away from the lift; the parts are "
         "shown for the smallest and the largest σ."
