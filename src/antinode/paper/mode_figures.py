@@ -51,8 +51,8 @@ def characteristic(scene: Scene) -> Drawn:
         "thanks to the product of signs both sides of a pole go the same way. The rotation of the "
         "free vehicle diverges: its ω² is negative and has no place on this axis. (b) The "
         "determinant of the transfer matrix method, eq. 66, over the size of its matrix: the same "
-        "roots without poles, but it sinks with frequency towards the rounding of the computer, where "
-        "it loses its sign. (c), (d) Close-ups of (a): a pole stands right beside a root."
+        "roots without poles, but it sinks with frequency towards the rounding of the computer, "
+        "where it loses its sign. (c), (d) Close-ups of (a): a pole stands right beside a root."
     )
 
 

@@ -10,8 +10,8 @@ that with ``w^T (K - lambda M) v = 0`` the shares of stiffness, mass, foundation
 masses add up to 1.
 
 In shear, with ``V = Q - N psi`` of either vector and flexibility s, ``w^T K v`` holds
-``s V_w V_v``: its share is that of kGA in Haringx' form, where s = 1/kGA; in Engesser's, s = 1/(kGA - N), it is
-``(1 + N s)`` times as much, and the force's so much less.
+``s V_w V_v``: its share is that of kGA in Haringx' form, where s = 1/kGA; in Engesser's,
+s = 1/(kGA - N), it is ``(1 + N s)`` times as much, and the force's so much less.
 """
 
 from __future__ import annotations
