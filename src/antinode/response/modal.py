@@ -59,6 +59,8 @@ class Basis:
         What modes pull each other with besides, where forces depend on motion [rad^2/s^2].
     doubt : float
         How far a frequency may be from its resonance, in half-widths of it, at most.
+    loss : array, shape (n, n), optional
+        What loss factors take of the stiffness between modes: imaginary part [rad^2/s^2].
     """
 
     names: tuple[str, ...]
@@ -70,6 +72,7 @@ class Basis:
     doubts: Array
     coupling: Array | None = None
     doubt: float = 0.0
+    loss: Array | None = None
 
     def chosen(self, which: Integers) -> Basis:
         """Return some of its modes."""
@@ -81,6 +84,7 @@ class Basis:
             self.outputs[:, which],
             self.drag[:, which],
             self.doubts[which],
+            loss=None if self.loss is None else self.loss[np.ix_(which, which)],
         )
 
     @property
@@ -224,6 +228,7 @@ def basis(
         c.reshape(len(outputs), len(found)),
         np.array([shown.dragged(o) if o.family == family else 0 * omega2 for o in outputs]),
         np.array([mode.error_omega2 for mode in found]),
+        loss=shown.losses(loss) if np.any(loss) and chain.law.has_axial_force else None,
     )
 
 
@@ -335,6 +340,20 @@ class _Shown:
         return np.asarray(
             (loss / columns["stiffness"]) @ squares.moment + (loss * shear) @ squares.shear
         )
+
+    def losses(self, loss: Array) -> Array:
+        """Return the strain energy between modes weighted by loss factors, times two, (n, n)."""
+        chain, columns = self.chain, self.chain.columns
+        shear = np.broadcast_to(columns.get("shear", np.zeros(())), loss.shape)
+        phase = largest_wave_number(chain, float(np.max(np.abs(self.omega2)))) * chain.length
+        total = np.zeros((len(self.omega2), len(self.omega2)))
+        for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
+            z = propagate(chain, self.states[:-1], self.omega2, point * chain.length)
+            V = z[..., 3] - columns["axial_force"][:, None] * z[..., 1]
+            share = weight * chain.length * loss
+            total += (z[..., 2].T * (share / columns["stiffness"])) @ z[..., 2]
+            total += (V.T * (share * shear)) @ V
+        return total
 
     def dashpots(self) -> Array:
         """Return the damping by dashpots, shape (n, n)."""

@@ -125,10 +125,11 @@ def _closed(own: Basis, rest: Array, model: Model, loops: Loops) -> tuple[Basis,
     W = np.linalg.inv(np.eye(len(K)) + K @ rest[o:, d:])
     pull, brake, by_force = W @ K @ seen, W @ D @ seen, W @ K @ rest[o:, :d]
     out = rest[:o, d:]
+    damping = own.damping + into @ brake + _of_stiffness(own, into @ pull, model)
     closed = Basis(
         own.names,
         own.omega2,
-        own.damping + into @ brake,
+        damping,
         b - into @ by_force,
         own_out - out @ pull,
         own.drag[:o] - out @ brake,
@@ -136,6 +137,26 @@ def _closed(own: Basis, rest: Array, model: Model, loops: Loops) -> tuple[Basis,
         into @ pull,
     )
     return closed, rest[:o, :d] - out @ by_force
+
+
+def _of_stiffness(own: Basis, pulled: Array, model: Model) -> Array:
+    """Return what damping by stiffness becomes where modes pull each other, beyond that of each.
+
+    Losses take ``i G`` of the stiffness; ``C = G A^(-1/2)``, A the matrix of the closed modes, is
+    as much at each of their resonances: ``i omega C x = i G x`` where ``A x = omega^2 x``.
+    """
+    if model.damping.rayleigh is not None:
+        buckled = np.diag(np.minimum(own.omega2, 0.0))  # which by themselves lose nothing so
+        return np.asarray(model.damping.rayleigh.beta * (pulled + buckled))
+    if own.loss is None:
+        return np.zeros_like(pulled)
+    squares, X = np.linalg.eig(np.diag(own.omega2) + pulled)
+    still = (np.abs(squares) <= _still(own.omega2)) | ((squares.imag == 0) & (squares.real < 0))
+    slowness = np.where(still, 0.0, 1 / np.sqrt(np.where(still, 1.0, squares.astype(complex))))
+    together = own.loss @ np.real((X * slowness) @ np.linalg.inv(X))
+    moves = own.omega2 > 0
+    each = np.where(moves, np.diag(own.loss) / np.sqrt(np.where(moves, own.omega2, 1.0)), 0.0)
+    return np.asarray(together - np.diag(each))
 
 
 def summed(model: Model, family: FamilyName, modes: int) -> Summed | Closed:
