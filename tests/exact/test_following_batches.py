@@ -47,6 +47,29 @@ def test_hardly_a_beam_is_solved_by_itself(monkeypatch):
     assert np.all(np.abs(result.omega2[some] - careful.omega2) <= error)
 
 
+def sheared(forces, modes=6):
+    """The same body, so thick that six modes lie far nearer to each other than without shear."""
+    plain = free(forces, modes)
+    m, EI = plain.mass_per_length, plain.bending_stiffness
+    more = {"shear_stiffness": 500 * EI, "rotary_inertia_per_length": 1e-3 * m}
+    tables = plain.length, m, EI, plain.axial_force
+    return an.BeamBatch(*tables, plain.ends, modes=modes, **more)
+
+
+def test_thick_beams_are_proven_together_as_well(monkeypatch):
+    alone = []
+    solve = batches._alone
+    monkeypatch.setattr(batches, "_alone", lambda *a: alone.append(a[2]) or solve(*a))
+    forces = np.linspace(0.5, 12.0, 40)
+    result = an.solve_many(sheared(forces))
+    assert not result.reason.any()
+    assert len(alone) <= 2
+    some = np.arange(0, 40, 13)
+    careful = an.solve_many(sheared(forces[some]), backend="numpy")
+    error = result.error_omega2[some] + careful.error_omega2
+    assert np.all(np.abs(result.omega2[some] - careful.omega2) <= error)
+
+
 @pytest.mark.parametrize(
     ("make", "forces"), [(column, [1, 8, 15, 19.9, 20.2, 26]), (free, [5, 20, 45])]
 )

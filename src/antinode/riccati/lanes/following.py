@@ -43,6 +43,7 @@ from .search import carry_chain, find_roots
 from .workspace import AT, COUNT, LANES, OMEGA2, POWER, VALUE, A, B, D, E, F, Task
 
 _FIRST_SHARE = 0.125  # of all forces, for guesses
+_DRAWN = 0.8  # share of the usual distance of roots below which they are drawn together
 _NEAR = 0.97  # of abs(g - 1) that is less than 1 for certain
 _COUNTS = 3  # lanes that look for a gap
 """Lanes of the proof: three counts in the gap; then at -t the fixed chain's plane, those of a unit
@@ -144,6 +145,10 @@ def _prove(chain, below, root, filled, table, lanes, proof):
         return NOT_BRACKETED, 0
     spacing = laws.root_spacing(chain)
     place = math.sqrt(math.sqrt(top))
+    if n > 2:  # shear and rotary inertia draw roots together
+        own = (place - math.sqrt(math.sqrt(root[n - 3]))) / 2
+        if own < _DRAWN * spacing:
+            spacing = own
     state, number = lanes.state, below + n
     reach = (place + spacing) ** 4
     if reach > filled:
