@@ -143,12 +143,8 @@ def _prove(chain, below, root, filled, table, lanes, proof):
     top = root[n - 1]
     if not (root[0] > 0.0 and top > 0.0):
         return NOT_BRACKETED, 0
-    spacing = laws.root_spacing(chain)
     place = math.sqrt(math.sqrt(top))
-    if n > 2:  # shear and rotary inertia draw roots together
-        own = (place - math.sqrt(math.sqrt(root[n - 3]))) / 2
-        if own < _DRAWN * spacing:
-            spacing = own
+    spacing = _spacing(chain, root, place)
     state, number = lanes.state, below + n
     reach = (place + spacing) ** 4
     if reach > filled:
@@ -195,6 +191,17 @@ def _prove(chain, below, root, filled, table, lanes, proof):
     proof[0], proof[1], proof[2] = (low + high) / 2, 1.0 - near, 2 * LANES
     proven = _has_gap(number, 2, state) and near < _NEAR
     return (CERTIFIED if proven else NOT_BRACKETED), 2 * LANES
+
+
+@compiled
+def _spacing(chain, root, place):
+    """Return about how far the next root is, in omega^(1/2): shear draws roots together."""
+    usual, n = laws.root_spacing(chain), len(root)
+    if n > 2:
+        own = (place - math.sqrt(math.sqrt(root[n - 3]))) / 2
+        if own < _DRAWN * usual:
+            return own
+    return usual
 
 
 @compiled
