@@ -201,7 +201,8 @@ def tornado(result: SensitivityResult) -> Figure:
             axes.barh(y, total, 0.7, color=PALETTE[5], label="total")
             axes.barh(y, m.indices.first[order], 0.35, color=PALETTE[0], label="first order")
             axes.errorbar(total, y, xerr=error, fmt="none", ecolor="#374151", linewidth=1)
-            axes.set_yticks(y, [result.inputs[k].replace("_", " ") for k in order])
+            names = [result.inputs[k].replace("_", " ").replace(":", ", ") for k in order]
+            axes.set_yticks(y, names)
             axes.set_title(f"{m.name}: {m.mean:.4g} Hz, sd {m.sd:.2g} Hz", loc="left")
             axes.grid(visible=False, axis="y")
         for axes in panels.ravel()[len(modes) :]:
