@@ -67,11 +67,23 @@ def serving(*arguments):
         process.stderr.close()
 
 
+def axe(tab):
+    """Return what axe-core finds wrong with the page as it stands."""
+    import axe_playwright_python
+
+    script = Path(axe_playwright_python.__file__).parent / "axe.min.js"
+    if not tab.page.evaluate("Boolean(window.axe)"):
+        tab.page.evaluate(script.read_text(encoding="utf-8"))
+    found = tab.page.evaluate("axe.run(document, {resultTypes: ['violations']})")
+    return [(v["id"], v["nodes"][0]["html"][:200]) for v in found["violations"]]
+
+
 class Tab:
     """A page in the browser with all that it complained of and asked for."""
 
-    def __init__(self, browser, url, *, width=1280, height=800):
-        self.page = browser.new_page(viewport={"width": width, "height": height})
+    def __init__(self, context, url, *, width=1280, height=800):
+        self.page = context.new_page()
+        self.page.set_viewport_size({"width": width, "height": height})
         self.errors, self.requests = [], []
         self.page.on("console", lambda m: self.errors.append(m.text) if m.type == "error" else None)
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
@@ -84,6 +96,19 @@ class Tab:
         """Open a page and wait until its full result is shown."""
         self.page.goto(url)
         self.settle()
+
+    def view(self, width, scheme):
+        """Give the window a width, light or dark, and wait until nothing moves any more."""
+        self.page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+        self.page.set_viewport_size({"width": width, "height": 800})
+        self.page.evaluate("window.scrollTo(0, 0)")
+        self.settle()
+        self.page.mouse.move(1, 1)
+        self.page.wait_for_timeout(300)
+
+    def picture(self):
+        """Return a picture of the window, on a phone of the whole page."""
+        return self.page.screenshot(full_page=self.page.viewport_size["width"] < 760)
 
     def settle(self):
         """Wait until a full result stands in the table."""

@@ -24,17 +24,25 @@ def chromium():
         browser.close()
 
 
+@pytest.fixture(scope="module")
+def context(chromium):
+    """One profile for all pages of a file: scripts are fetched and read once."""
+    context = chromium.new_context(permissions=["clipboard-read", "clipboard-write"])
+    yield context
+    context.close()
+
+
 @pytest.fixture(autouse=True)
 def no_page_stays_open(request):
     """Close what a test leaves open: a page that is looked at by nobody draws on."""
-    used = "chromium" in request.fixturenames
-    browser = request.getfixturevalue("chromium") if used else None
+    used = "context" in request.fixturenames
+    context = request.getfixturevalue("context") if used else None
     yield
-    for context in browser.contexts if browser else ():
-        context.close()
+    for page in context.pages if context else ():
+        page.close()
 
 
 @pytest.fixture
-def tab(chromium, address):
+def tab(context, address):
     """A fresh page."""
-    return Tab(chromium, address)
+    return Tab(context, address)

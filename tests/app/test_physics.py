@@ -16,6 +16,7 @@ from antinode.app.panels.compare import compare_data, snapshot
 from antinode.app.panels.effects import effects_data, ends_data
 from antinode.app.panels.frequencies import frequencies_data
 from antinode.app.panels.mode import energies, mode_data
+from antinode.app.panels.modes import modes_data
 from antinode.app.panels.sketch import sketch_data
 from antinode.app.panels.stability import stability_data
 from antinode.app.physics import changes_of, switches
@@ -222,6 +223,24 @@ def test_quick_modes_with_shear_and_ends_that_follow_say_how_wrong_they_are():
     quick, exact = quick_modes(beam, 4), natural_frequencies(beam, 4, tolerance=1e-9)
     assert np.all(np.abs(quick.omega2 / exact.omega2 - 1) < 2e-4)
     assert np.all(np.abs(quick.omega2 - exact.omega2) < 3 * quick.error + 1e-9 * exact.omega2)
+
+
+def test_complex_modes_move_as_they_do():
+    """A dashpot at the top: places do not pass through zero together, and turn is the phasors'."""
+    changes, _ = added(example("beam"), "dashpot")
+    answer = quick_answer(example("beam").changed(changes))
+    curves = modes_data(answer, View(modes=(1, 2)))["curves"]
+    for k, curve in enumerate(curves):
+        points = np.array(curve["points"], dtype=float)
+        assert points.shape[1] == 3
+        amplitude = np.hypot(points[:, 1], points[:, 2])
+        assert np.max(amplitude) == pytest.approx(1.0, rel=1e-3)
+        phasors = np.abs(answer.quick.phasors[:, k, 0])
+        there = np.interp(points[:, 0], answer.quick.x, phasors / np.max(phasors))
+        np.testing.assert_allclose(amplitude, there, atol=2e-3)
+        assert np.max(np.abs(points[:, 2])) > 1e-4  # it travels
+    plain = modes_data(quick_answer(example("beam")), View(modes=(1,)))
+    assert len(plain["curves"][0]["points"][0]) == 2
 
 
 def test_energies_of_a_mode_balance_and_a_cantilevers_moment_is_at_its_foot():

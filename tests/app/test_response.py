@@ -127,8 +127,8 @@ def test_what_cannot_be_is_said(asked, words):
         response_data(own, quick_answer(own), full=False)
 
 
-def test_it_moves_with_a_slider_while_full_answers_are_on_their_way(chromium, address):
-    tab = Tab(chromium, address + '?panel="response"')
+def test_it_moves_with_a_slider_while_full_answers_are_on_their_way(context, address):
+    tab = Tab(context, address + '?panel="response"')
     tab.page.wait_for_selector(".an-peaks:not(.an-quick) td")
     first = tab.page.locator(".an-peaks tbody tr").first.inner_text().split("\t")
     assert float(first[0]) == pytest.approx(3.766, abs=1e-3)
@@ -155,8 +155,8 @@ def test_it_moves_with_a_slider_while_full_answers_are_on_their_way(chromium, ad
     tab.page.close()
 
 
-def test_another_output_by_the_menu(chromium, address):
-    tab = Tab(chromium, address + f'?panel="response"&case={read_example("drawing").packed()}')
+def test_another_output_by_the_menu(context, address):
+    tab = Tab(context, address + f'?panel="response"&case={read_example("drawing").packed()}')
     tab.page.get_by_label("Force, output, damping and band").click()
     field = tab.page.get_by_label("response: force at")
     field.fill("90 m")
@@ -192,8 +192,8 @@ def test_another_output_by_the_menu(chromium, address):
 
 
 @pytest.mark.parametrize("title", ["Vehicle in its cavity", "Mode shapes", "chosen panel", "Body"])
-def test_a_panel_is_saved_as_a_picture(chromium, address, title):
-    tab = Tab(chromium, address + '?panel="response"')
+def test_a_panel_is_saved_as_a_picture(context, address, title):
+    tab = Tab(context, address + '?panel="response"')
     tab.page.wait_for_selector(".an-peaks:not(.an-quick) td")
     tab.page.get_by_label(f"Enlarge: {title}").click()
     large = tab.page.locator(".an-large")
@@ -217,8 +217,8 @@ def test_a_panel_is_saved_as_a_picture(chromium, address, title):
     tab.page.close()
 
 
-def test_a_snapshot_lies_beside_shapes_and_response(chromium, address):
-    tab = Tab(chromium, address + '?panel="compare"')
+def test_a_snapshot_lies_beside_shapes_and_response(context, address):
+    tab = Tab(context, address + '?panel="compare"')
     tab.page.get_by_role("button", name="Keep").click()
     before = tab.frequency(1)
     tab.page.get_by_role("button", name="Euler-Bernoulli").click()

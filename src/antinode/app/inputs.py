@@ -59,7 +59,7 @@ def sliders(problem: Problem, original: Problem, more: tuple[str, ...] = ()) -> 
     more : tuple of str
         Paths of further numbers.
     """
-    paths = _vehicle_paths(problem) if isinstance(problem, Case) else _beam_paths(problem)
+    paths = _vehicle_paths(problem) if isinstance(problem, Case) else _beam_paths(problem, original)
     paths += [path for path in dict.fromkeys(more) if path not in paths]
     chosen = [find_input(problem, original, path) for path in paths]
     return tuple(item for item in chosen if item is not None)
@@ -124,9 +124,14 @@ def _vehicle_paths(case: Case) -> list[str]:
     return [*paths, "condition.burn_fraction"]
 
 
-def _beam_paths(file: BeamFile) -> list[str]:
-    """Return loads first, then what is attached."""
-    every = [item.path for item in numbers(file) if item.value != 0 or "gravity" in item.path]
+def _beam_paths(file: BeamFile, original: Problem) -> list[str]:
+    """Return loads first, then what is attached; what was not zero at first stays."""
+    first = {item.path for item in numbers(original) if item.value != 0}
+    every = [
+        item.path
+        for item in numbers(file)
+        if item.value != 0 or "gravity" in item.path or item.path in first
+    ]
     loads = [p for p in every if p.startswith("beam.loads")]
     attached = [p for p in every if not p.startswith("beam.loads")]
     return [*loads, *attached][:_MOST_SLIDERS] or _shares(file)

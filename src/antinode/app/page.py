@@ -48,6 +48,18 @@ SHORTCUTS = {
     "V": "let the modes vibrate",
 }
 """What keys do, as the page lists it."""
+EXAMPLE_WORDS = {
+    "starter": "a vehicle in its cavity",
+    "paper": "the vehicle of the paper",
+    "beam": "a stepped mast, pressed by cables",
+    "drawing": "a tower of tubes, by diameter and wall",
+    "tower": "a tapered tube with a nacelle",
+    "rocket": "free, under thrust",
+    "drill_string": "taut above, pushed below",
+    "shaft": "two discs on elastic bearings",
+    "response": "a free body of aluminium tube",
+}
+"""What each example is."""
 
 
 def _components(family: FamilyName) -> dict[int, str]:
@@ -156,7 +168,7 @@ class Page:
             item.props('role="menuitem"')
             ui.separator()
             for example in (e for e, run in EXAMPLES.items() if "sweep" not in run):
-                words = f"Example: {example.replace('_', ' ')}"
+                words = f"Example: {example.replace('_', ' ')}, {EXAMPLE_WORDS[example]}"
                 item = ui.menu_item(words, self._opener(example)).props('role="menuitem"')
                 item.mark(f"example-{example}")
         head_button("Stations", "table_rows", self._stations.open)

@@ -23,6 +23,7 @@ from antinode.modes.rigid import exact_zeros, rigid_modes
 from antinode.modes.rotation import elastic
 from antinode.modes.solve import solve_modes
 from antinode.modes.solvers import solver_of
+from antinode.riccati.arrays import Complex
 from antinode.riccati.chain import Chain
 
 QUICK_FAMILY = BENDING
@@ -47,12 +48,15 @@ class Quick(NamedTuple):
         [m].
     states : array, shape (points, modes, 4)
         Y, theta, M, Q_y; the largest Y is 1.
+    phasors : array of complex, shape (points, modes, 4), or None
+        Of complex modes: amplitude and phase; their places do not pass through zero together.
     """
 
     omega2: Array
     error: Array
     x: Array
     states: Array
+    phasors: Complex | None = None
 
 
 def warm_up() -> None:
@@ -122,7 +126,10 @@ def _full_modes(beam: Beam, modes: int) -> Quick:
     found = [mode for mode in result.modes if mode.number][:modes]
     states = np.stack([mode.states for mode in found], axis=1)
     error = np.array([mode.error_omega2 for mode in found])
-    return Quick(np.array([mode.omega2 for mode in found]), error, result.x, states)
+    omega2 = np.array([mode.omega2 for mode in found])
+    known = [mode.phasors for mode in found if mode.phasors is not None]
+    phasors = np.stack(known, axis=1) if known and len(known) == len(found) else None
+    return Quick(omega2, error, result.x, states, phasors)
 
 
 def _scaled(states: Array) -> Array:

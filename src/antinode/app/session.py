@@ -186,7 +186,7 @@ class Session:
     async def _work(self) -> None:
         while True:
             version, state = self._version, self.state
-            steps = self._quick, self._coarse_curve, self._settled, self._full
+            steps = self._quick, self._response, self._coarse_curve, self._settled, self._full
             for step in (*steps, self._panel, self._curves):
                 if not await step(state) or version != self._version:
                     break
@@ -195,6 +195,17 @@ class Session:
 
     async def _quick(self, state: State) -> bool:
         return await self._show(state, quick_answer)
+
+    async def _response(self, state: State) -> bool:
+        """Send the response at once, after the panels that do not wait for it."""
+        answer, version = self.answer, self._version
+        if state.view.panel != "response" or answer is None:
+            return True
+        data = await self.run(lambda: self._response_now(state, answer))
+        if version != self._version:
+            return False
+        self._send({"response": data})
+        return True
 
     async def _settled(self, state: State) -> bool:
         await asyncio.sleep(_SETTLED)
@@ -253,7 +264,7 @@ class Session:
         try:
             answer, data, inputs = await self.run(lambda: self._data(state, compute(state)))
         except AntinodeError as error:
-            self._fail(str(error))
+            self._fail(self.words_of(error))
             return False
         except Exception as error:
             self._fail(f"{type(error).__name__}: {error}; this is a bug in antinode")
@@ -265,6 +276,10 @@ class Session:
         if state is self.state:
             self._face.refresh(inputs, self._dragged)
         return True
+
+    def words_of(self, error: AntinodeError) -> str:
+        """Return what is wrong without the file's name, which stands above."""
+        return str(error).replace(f"{self.state.file.origin} (with --set): ", "")
 
     def _fail(self, sentence: str) -> None:
         self.error = sentence
@@ -292,8 +307,6 @@ class Session:
             data["beam"] = sketch_data(answer, view.units)
         if view.panel == "mode":
             data["mode"] = mode_data(answer, view)
-        if view.panel == "response" and answer.full is None:
-            data["response"] = self._response_now(state, answer)
         item = self.curve_input(state, inputs)
         nothing = {"said": "Attach something, or add a slider: this shows what it does."}
         data["curve"] = nothing if item is None else self._curve_patch(state, item, answer)

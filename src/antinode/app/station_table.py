@@ -31,7 +31,8 @@ def columns_of(problem: Problem) -> dict[str, np.ndarray]:
         return {"x": stations.x, **{name: column for name, column, _ in stations.columns()}}
     table = problem.table.stations
     every = {name: getattr(table, name) for name in type(table).model_fields}
-    return {name: column for name, column in every.items() if column is not None}
+    found = {name: column for name, column in every.items() if column is not None}
+    return {"x": found.pop("x"), **found}
 
 
 def unit_of(name: str, system: System) -> tuple[str, float]:

@@ -169,7 +169,7 @@ class StationsDialog:
         try:
             _ = session.state.problem
         except AntinodeError as error:
-            self._say(str(error))
+            self._say(session.words_of(error))
 
     def _show(self, table: StationTable, wrong: CellError | None = None) -> None:
         """Show a table; the grid keeps its place."""

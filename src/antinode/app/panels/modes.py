@@ -8,12 +8,12 @@ import numpy as np
 
 from antinode.app.compute import Answer
 from antinode.app.display import shown_unit
-from antinode.app.quick import QUICK_FAMILY
+from antinode.app.quick import QUICK_FAMILY, Quick
 from antinode.app.state import View
 from antinode.beam.families import FAMILIES, FamilyName
 from antinode.modes.hertz import hertz
 
-from .numbers import pairs, thinned
+from .numbers import pairs, short_list, thinned
 
 
 def modes_data(answer: Answer, view: View, beside: Answer | None = None) -> dict[str, Any]:
@@ -40,11 +40,21 @@ def _curves(
         {
             "number": number,
             "label": label,
-            "points": pairs(*thinned(x, _largest_one(shape[:, component]))),
+            "points": _points(x, shape, component),
         }
         for number, label, shape in zip(view.modes, labels, shapes, strict=False)
         if shape is not None
     ]
+
+
+def _points(x: np.ndarray, shape: np.ndarray, component: int) -> list[list[float | None]]:
+    """Return x and the quantity, its largest value 1; of complex modes a quarter turn later."""
+    places, values = thinned(x, _largest_one(shape[:, component]))
+    points = pairs(places, values.real)
+    if np.iscomplexobj(values):
+        later = short_list(values.imag)
+        points = [[*point, value] for point, value in zip(points, later, strict=True)]
+    return points
 
 
 def _kept(
@@ -64,7 +74,7 @@ def _shapes(
     if family == QUICK_FAMILY:
         quick = answer.quick
         count = len(quick.omega2)
-        shapes = [quick.states[:, n - 1] if n <= count else None for n in view.modes]
+        shapes = [_moving(quick, n - 1) if n <= count else None for n in view.modes]
         labels = [_label(float(quick.omega2[n - 1])) if n <= count else "" for n in view.modes]
         return quick.x, shapes, labels
     assert answer.full is not None
@@ -72,6 +82,18 @@ def _shapes(
     modes = [found.get(n) for n in view.modes]
     shapes = [None if mode is None else mode.states for mode in modes]
     return answer.full.x, shapes, ["" if m is None else _label(m.omega2) for m in modes]
+
+
+def _moving(quick: Quick, k: int) -> np.ndarray:
+    """Return a mode's states; of a complex one its phasors, turned to where it moves farthest."""
+    states = quick.states[:, k]
+    if quick.phasors is None:
+        return np.asarray(states)
+    phasors = quick.phasors[:, k]
+    farthest = phasors[np.argmax(np.abs(phasors[:, 0])), 0]
+    turned = phasors * (abs(farthest) / farthest)
+    along = float(turned[:, 0].real @ states[:, 0])
+    return np.asarray(turned if along >= 0 else -turned)
 
 
 def _label(omega2: float) -> str:

@@ -9,7 +9,12 @@ export default {
     registry.emit = (name, data) => this.$emit(name, data);
     const system = window.matchMedia("(prefers-color-scheme: dark)");
     document.fonts.ready.then(() => this.$emit("ready", system.matches));
-    this.themes = new MutationObserver(() => requestAnimationFrame(() => registry.retheme()));
+    let dark = null; // menus and dialogs change the body's class too
+    this.themes = new MutationObserver(() => {
+      const now = document.body.classList.contains("body--dark");
+      if (now !== dark) requestAnimationFrame(() => registry.retheme());
+      dark = now;
+    });
     this.themes.observe(document.body, { attributes: true, attributeFilter: ["class"] });
     // Menus and dialogs hang at the end of the body: landmarks of their own for screen readers.
     this.portals = new MutationObserver((changes) => {

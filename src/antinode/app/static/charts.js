@@ -319,7 +319,9 @@ export function curve(element) {
       data: cursor ? [{ xAxis: cursor.value }] : [],
     },
   });
-  const full = (data, t) => ({
+  const words = (t) => ({ color: t.muted, fontSize: 12, lineHeight: 17, fontWeight: 400, fontFamily: FONT, width: element.clientWidth - 20, overflow: "break" });
+  const full = (data, t) => (data.said ? { title: { text: data.said, left: 10, top: 10, textStyle: words(t) } } : drawn(data, t));
+  const drawn = (data, t) => ({
     grid: { left: 42, right: 16, top: 12, bottom: 36 },
     xAxis: xAxis(t, `${data.label}${data.unit ? ` [${data.unit}]` : ""}`, { min: data.low, max: data.high, axisLabel: { ...label(t), formatter: rounded } }),
     yAxis: axis(t, "", { min: 0, splitNumber: 4 }),
@@ -330,17 +332,15 @@ export function curve(element) {
     ),
     series: [...lines(data, t), marks(t)],
   });
-  const it = chart(element, full, (data, t) => ({
-    series: [...lines(data, t).map((s) => ({ id: s.id, data: s.data })), marks(t)],
-  }));
+  const it = chart(element, full, (data, t) => (data.said ? null : { series: [...lines(data, t).map((s) => ({ id: s.id, data: s.data })), marks(t)] }));
   return {
     ...it,
-    text: () => (it.data ? wide([it.data.unit ? `${it.data.label} [${it.data.unit}]` : it.data.label, ...it.data.lines.map((_, k) => `mode ${k + 1} [Hz]`)], it.data.lines) : ""),
+    text: () => (it.data?.lines ? wide([it.data.unit ? `${it.data.label} [${it.data.unit}]` : it.data.label, ...it.data.lines.map((_, k) => `mode ${k + 1} [Hz]`)], it.data.lines) : ""),
     show(data) {
-      if (data.said) return void it.instance.setOption({ title: { text: data.said, left: 10, top: 10, textStyle: { color: theme().muted, fontSize: 12, lineHeight: 17, fontWeight: 400, fontFamily: FONT, width: element.clientWidth - 20, overflow: "break" } } }, true);
+      if (data.said) return it.show({ said: data.said, signature: data.said });
       if (data.cursor) cursor = data.cursor;
       if (data.curve) it.show({ ...data.curve, signature: JSON.stringify([data.curve.label, data.curve.unit, data.curve.low, data.curve.high, data.curve.lines.length]) });
-      else if (it.data) it.instance.setOption({ series: [marks(theme())] });
+      else if (it.data?.lines) it.instance.setOption({ series: [marks(theme())] });
     },
   };
 }

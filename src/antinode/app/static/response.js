@@ -5,6 +5,7 @@ import { axis, chart, label, tooltip, xAxis } from "./charts.js";
 export function response(element) {
   const plot = element.appendChild(html("div", "an-plot"));
   const list = element.appendChild(html("div", "an-peaks"));
+  Object.assign(list, { tabIndex: 0, role: "region", ariaLabel: "Peaks" }); // it may scroll
   let last = null;
   const power = (value) => (value >= 0.01 && value < 1e4 ? String(value) : value.toExponential(0).replace("e+", "e"));
   const log = (t, ends) => ({ type: "log", splitNumber: 4, axisLabel: { ...label(t), formatter: power }, ...ends });

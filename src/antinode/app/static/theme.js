@@ -1,5 +1,15 @@
 // Colours and type of the page, from its style sheet, for what is drawn on a canvas.
+// They are read once for light and for dark: to ask for them makes the browser work out styles.
 export function theme() {
+  const now = document.body.classList.contains("body--dark");
+  if (now !== of) [read, of] = [readTheme(), now];
+  return read;
+}
+
+let read = null;
+let of = null;
+
+function readTheme() {
   const style = getComputedStyle(document.body);
   const value = (name) => style.getPropertyValue(name).trim();
   return {
