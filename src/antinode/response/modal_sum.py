@@ -27,7 +27,7 @@ from .frequency import Model
 from .modal import MOST_MODES, Basis, basis, modes_below
 from .quantities import Base, Drive, Output
 
-_SHAPE = 100.0
+SHAPE = 100.0
 """Relative error of a shape over the largest of all omega^2, at most: these are extrapolated."""
 _TAIL = 0.25
 """What modes left out do beyond their rest, over the upper half of those that are summed, at most:
@@ -175,7 +175,7 @@ class Summed:
         own, omega = self.basis, 2 * np.pi * frequency_hz
         stiff = own.omega2 - omega[:, None] ** 2 + 1j * omega[:, None] * np.diag(own.damping)
         elastic = np.maximum(np.abs(own.omega2), 1e-9 * np.max(np.abs(own.omega2)))
-        relative = _SHAPE * np.max(own.doubts / elastic) + np.zeros(stiff.shape)
+        relative = SHAPE * np.max(own.doubts / elastic) + np.zeros(stiff.shape)
         if not still:
             relative = relative + own.doubts / np.abs(stiff)
         sizes = np.abs(modal_coordinates(own, omega)) * relative[:, :, None]

@@ -8,6 +8,7 @@ formulas differ from their curves.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -25,7 +26,7 @@ from .frequency import Model
 from .harmonic import output_keys
 from .histories import History, history_from
 from .modal import MOST_MODES, Basis
-from .modal_sum import Summed
+from .modal_sum import SHAPE, Summed
 from .motion.loops import Closed, summed
 from .motion.recurrence import move, move_coupled, move_together, twice_integrated
 from .numbers import plain
@@ -198,17 +199,34 @@ class Histories:
         own, driven, shift = self.summed.basis, self.driven, self.summed.shift
         upper = np.argsort(own.omega2, kind="stable")[len(own.omega2) // 2 :]
         rest = own.drives[upper] / (own.omega2[upper] + shift)[:, None]
-        most = [
-            np.max(np.abs(self.motion.q[:, upper] - driven.value @ rest.T), axis=0),
-            np.max(np.abs(self.motion.rate[:, upper] - driven.slope @ rest.T), axis=0),
-            np.max(np.abs(self.acceleration[:, upper]), axis=0),
-        ]
-        size = np.array([most[output.rate] for output in self.summed.model.outputs])
-        tail = _TAIL * np.sum(np.abs(own.outputs[:, upper]) * size, axis=1)
+        at_rest = driven.value @ rest.T, driven.slope @ rest.T, np.zeros(len(upper))
+        own_parts = self.motion.q, self.motion.rate, self.acceleration
+        beyond = [part[:, upper] - still for part, still in zip(own_parts, at_rest, strict=True)]
+        tail = _TAIL * self._largest(own.outputs[:, upper], beyond)
+        tail = tail + self._largest(own.outputs * self._doubtful(), own_parts)
         if not isinstance(self.summed, Closed):
             return np.asarray(tail)
         few = Histories(self.summed.half, driven).values()
         return np.asarray(np.maximum(tail, np.max(np.abs(values - few), axis=1)))
+
+    def _largest(self, outputs: Array, parts: Sequence[Array]) -> Array:
+        """Return the sums over modes of the largest of motions, rates or accelerations."""
+        most = [np.max(np.abs(part), axis=0) for part in parts]
+        size = np.array([most[output.rate] for output in self.summed.model.outputs])
+        return np.asarray(np.sum(np.abs(outputs) * size, axis=1))
+
+    def _doubtful(self) -> Array:
+        """Return how wrong each mode's motion may be, relative: its shape, and its phase at last.
+
+        A frequency that is off drifts until the mode has rung down, or to the end.
+        """
+        own, time = self.summed.basis, self.driven.time_s
+        square = np.abs(own.omega2)
+        elastic = square > 1e-9 * np.max(square)
+        safe, drag = np.where(elastic, square, 1.0), np.abs(np.diag(own.damping))
+        rings = np.minimum(time[-1] - time[0], 2 / np.maximum(drag, 1e-300))
+        phase = np.where(elastic, own.doubts / (2 * np.sqrt(safe)) * rings, 0.0)
+        return np.asarray(phase + SHAPE * np.max(np.where(elastic, own.doubts / safe, 0.0)))
 
     def _ground(self) -> tuple[Array, Array, Array]:
         """Return displacement, velocity and acceleration of the ground."""

@@ -60,7 +60,7 @@ def _draw_random(result: Any) -> Figure:
             own = result.statistics[row]
             peaks = [(p.frequency_hz, p.size / size.factor**2) for p in result.peaks[row]]
             f, y = _joined(result.frequency_hz, result.psd[row] / size.factor**2, peaks)
-            label = f"{own.rms / size.factor:.3g} {size.unit} rms"
+            label = f"{own.rms / size.factor:.4g} {size.unit} rms"
             axes[row].plot(f, y, color=PALETTE[0], label=label, zorder=3)
             axes[row].legend(loc="best")
             _name_modes(axes[row], result, row == 0)
