@@ -24,11 +24,11 @@ _FIELDS = {
 }
 
 
-_DRIVES = {"force": "a force", "base": "motion of the supports"}
+_DRIVES = {"force": "force", "base": "supports"}
 _DAMPING = {
     "loss_factor": "loss factor",
-    "modal": "ratio of all modes",
-    "rayleigh": "Rayleigh: that ratio at both ends of the band",
+    "modal": "ratio of modes",
+    "rayleigh": "Rayleigh",
 }
 
 

@@ -97,7 +97,8 @@ def _acts(asked: Wanted, length: Shown) -> str:
     drive: Force | Base = asked.drive
     system: System = "SI" if asked.amplitude >= 1e3 else "mm-t-s"
     if isinstance(drive, Base):
-        return f"supports by {number_text(asked.amplitude, 4)} {drive.unit}, {drive.direction}"
+        unit = shown_unit(drive.unit, "SI").name
+        return f"supports by {number_text(asked.amplitude, 4)} {unit}, {drive.direction}"
     strength = shown_unit(drive.unit, system)
     if drive.unit == "N m" and asked.amplitude < 1e3:
         strength = Shown("N m", 1.0)
