@@ -101,6 +101,12 @@ def test_the_waters_stiffness_has_complex_modes_and_says_what_it_leaves_out():
             shown, true = row["damping"].split()[0], mode.eigenvalue.real
         assert float(shown) == pytest.approx(true, rel=1e-2)
     assert "complex" in effects_data(answer)["notes"][0]
+    beside = ends_data(answer)  # contact on and off stand where the ends do
+    assert beside["columns"][2:] == ["contact off [Hz]", "without [Hz]", "contact ends [g]"]
+    (row,) = beside["rows"]
+    steady = next(m for m in modes if m.kind == "elastic")
+    assert float(row[1]) == pytest.approx(steady.frequency_hz, rel=1e-5)
+    assert float(row[2]) < float(row[1]) < float(row[3])
     assert "hydrodynamic stiffness and damping" in str(
         frequencies_data(quick_answer(example("starter")), state.view)["left_out"]
     )
