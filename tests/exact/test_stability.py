@@ -12,6 +12,8 @@ from stability_digits import Digits
 
 import antinode as an
 from antinode.beam.attachments import PointMass
+from antinode.modes.backends import choose
+from antinode.stability.states import Watcher
 
 PI2 = np.pi**2
 
@@ -224,3 +226,14 @@ def test_a_stability_that_is_soon_regained_is_sharp_on_both_sides(share):
 def test_a_follower_that_pulls_makes_nothing_diverge():
     """Under a pull that turns no bent shape stays; omega^2 of exp(-2 sqrt(P)) is soon rounding."""
     assert an.stability(column(force=-1.0)).critical == ()
+
+
+def test_rounding_beside_a_double_zero_hides_no_close_pair():
+    """Two real roots 13 % apart lie between samples; noise beside zero must not stand for them."""
+    ends, critical = an.Ends(left_follower=1, right_follower=1), 238.7180637764
+    watcher = Watcher(beam([0, 1], [1, 1], [1, 1], [1, 1], ends), choose(), 1, 12)
+    for factor, diverging in ((critical * (1 - 1e-6), 3), (critical * (1 + 1e-6), 4)):
+        state = watcher.at(factor)
+        assert state.proven
+        assert state.status == (diverging, 0)
+        np.testing.assert_allclose(state.real[:3], [-10530.82, -9227.624, -2103.9595], rtol=1e-5)

@@ -29,7 +29,8 @@ _GAPS = 6  # above those wanted in which the line may stand
 _ENOUGH = 0.8  # of abs(g - 1) far off
 _DENSE = 6  # samples of the characteristic function for each eigenvalue
 _PASSES = 60
-_BLURRED = 1e-9  # of the scale: nearer to zero than this, changes of sign may be rounding
+_BLURRED = 1e-7  # of the scale, and of the least eigenvalue of fixed directions that is not zero:
+# nearer to zero than this, changes of sign may be rounding
 _ROUNDED = 1e-7  # of a zero, up to which steps that shrink no more are rounding
 _STEPS = 1e-3, 1e-5  # share of an imaginary part: against rounding, and beside a pole
 _ON_AXIS = 1e-9  # share of an imaginary part that is rounding
@@ -73,11 +74,12 @@ class Finder:
         certificate, poles = self._certify(wanted)
         places, values = self._scan(certificate.below, poles, hints.real)
         missing = certificate.number - self.zeros
-        brackets, floor = self._told_apart(places, values), self._floor
+        blurred, floor = self._blurred(poles), self._floor
+        brackets = _without_rounding(_changes(places, values), blurred)
         while len(brackets) > missing and floor < 1e-5 * self.scale:  # rounding beside zero
             floor *= 10
             keep = np.abs(places) > floor
-            brackets = self._told_apart(places[keep], values[keep])
+            brackets = _without_rounding(_changes(places[keep], values[keep]), blurred)
         found = self.shrink(brackets)
         found += [Eigenvalue(0, 0.0, (-floor, floor), (0, 0))] * self.zeros
         if len(brackets) < missing:
@@ -133,8 +135,13 @@ class Finder:
         places = places[new & (np.abs(places) >= self._floor)]
         return places, self.divided(places)
 
-    def _told_apart(self, places: Array, values: Array) -> list[Bracket]:
-        return _without_rounding(_changes(places, values), _BLURRED * self.scale)
+    def _blurred(self, poles: list[Eigenvalue]) -> float:
+        """Return how near to zero rounding may change signs: a double zero is flat beside others.
+
+        Rounding is a share of the function away from zero, and that rises as the square there.
+        """
+        sizes = [abs(pole.omega2) for pole in poles]
+        return _BLURRED * max(self.scale, min(s for s in sizes if s > self._floor))
 
     def _near_zero(self) -> Array:
         steps = self.scale * 10.0 ** np.arange(-13, 1)
