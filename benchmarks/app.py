@@ -41,6 +41,7 @@ MEASURE = """async ([label, key]) => {
     await new Promise((done) => setTimeout(done, 900));
     for (const [name, view] of Object.entries(window.antinode.views)) view.show = original[name];
     focus.dispatchEvent(new KeyboardEvent('keyup', {key, keyCode: code, bubbles: true}));
+    await new Promise((done) => setTimeout(done, 200)); // letting go is a throttled event
     return Object.fromEntries(Object.entries(seen).map(([name, t]) => [name, t - start]));
 }"""
 
