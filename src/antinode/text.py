@@ -70,6 +70,8 @@ _CALLED = {
     "gravity": ("g",),
     "speed": ("V", "velocity"),
     "cavitation_number": ("sigma",),
+    "wall": ("wall_thickness", "thickness", "t", "wt"),
+    "outer_diameter": ("od", "OD", "D", "d", "outside_diameter"),
 }
 """What others call the keys and columns."""
 _OF_TENSION = "N", "tension", "T", "P", "axial_load", "preload"

@@ -257,6 +257,7 @@ class TestKeys:
         assert one_line("a" * 50 + "end", 20).endswith("end")
         assert nearest("sped", ["speed", "depth"]) == "did you mean speed?"
         assert nearest("zzz", ["speed", "depth"]) == "allowed are speed, depth"
+        assert nearest("wall_thickness", ["axial_stiffness", "wall"]) == "did you mean wall?"
 
 
 def uniform(length=2.0, m=1.0, EI=1.0, N=0.0, EA=None):
