@@ -23,7 +23,7 @@ from antinode.app.physics import changes_of, switches
 from antinode.app.quick import quick_modes
 from antinode.app.save import case_toml
 from antinode.app.source import read_example
-from antinode.app.state import File, State, View
+from antinode.app.state import File, State, View, with_changes
 from antinode.beam.ends import Ends
 
 
@@ -49,6 +49,7 @@ def position(state, key):
         ("forces", "thrust", {"end_force": "fixed_direction", "thrust_follows": 1.0}),
         ("forces", "none", {"end_force": "fixed_direction"}),
         ("water", "tangent", {"hydrodynamic_stiffness": "tangent"}),
+        ("added", "on", {"fin_added_mass": "plate", "planing_added_mass": "wedge"}),
     ],
 )
 def test_a_switch_of_a_vehicle_is_what_its_file_says(key, where, told):
@@ -81,6 +82,23 @@ def test_each_effect_is_the_ratio_of_two_solutions():
     )
     assert table["rows"][0][k]["text"] == f"{follow / fixed - 1:+.2%}"
     assert table["rows"][0][k]["share"] == pytest.approx(1.0)  # the largest of all
+
+
+def test_added_mass_has_its_switch_and_its_bar():
+    dry = example("starter")
+    tables = with_changes(dry.file.tables, {"model.fin_added_mass": "plate_one_face"})
+    for first in (dry, State(File(tables, "one face"))):
+        wet = turned(first, "added", "on")
+        table = effects_data(full_answer(wet))
+        k = table["columns"].index("added mass")
+        f, g = (
+            natural_frequencies(s.beam, 1, tolerance=1e-8).frequencies_hz[0]
+            for s in (wet, turned(wet, "added", "off"))
+        )
+        assert table["rows"][0][k]["text"] == f"{f / g - 1:+.2%}"
+        assert -2e-3 < f / g - 1 < -5e-4
+    assert wet.problem.model.fin_added_mass == "plate_one_face"
+    assert wet.problem.model.planing_added_mass == "none"
 
 
 def test_the_waters_stiffness_has_complex_modes_and_says_what_it_leaves_out():

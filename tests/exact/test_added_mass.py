@@ -9,9 +9,14 @@ import pytest
 from following_beams import _scaled
 
 import antinode as an
+from antinode.study.cases.chunks import compute_chunk
+from antinode.study.design.points import points_of
+from antinode.study.sensitivity.sensitivity import local_slopes
 from antinode.vehicle.hydrodynamics.added_mass import fin_mass, plate, tail_mass, wedge
+from antinode.vehicle.numbers import replaced, value_at
 from cli_run import refused, run
 from hp_beam import _weighted
+from study_text import study
 
 BOTH = {"fin_added_mass": "plate", "planing_added_mass": "wedge"}
 
@@ -61,7 +66,8 @@ def wetted_by_points(case, places=1501, points=4000):
 @pytest.mark.parametrize("sigma", [0.02, 0.0215, 0.03])
 def test_the_tail_by_brute_force(folder, sigma):
     case = case_of(folder, f"condition.cavitation_number={sigma}", **BOTH)
-    mine = tail_mass(case.water.density, case.loads.cavity, case.vehicle.radius_profile)
+    cavities = case.many_loads.hydrodynamics.cavity
+    (mine,) = tail_mass(np.array([case.water.density]), cavities, case.vehicle.radius_profile)
     assert mine > 0.1
     assert mine == pytest.approx(wetted_by_points(case), rel=5e-3)
 
@@ -117,12 +123,83 @@ def test_its_size_is_printed_and_what_is_left_out_is_named(folder):
     assert "added mass of wetted parts" in plain["not_modelled"]
 
 
-def test_studies_refuse_it_and_a_wrong_name_is_told(folder):
+INPUTS = """
+[[inputs]]
+key = "condition.cavitation_number"
+low = 0.0195
+high = 0.0225
+[[inputs]]
+key = "condition.fin_position"
+low = 4.1
+high = 5.7
+[[inputs]]
+key = "water.density"
+low = 990
+high = 1030
+[[inputs]]
+key = "vehicle.fins.0.tip_radius"
+low = 0.3
+high = 0.4
+"""
+STUDY = """
+outputs = ["frequency_hz", "error_hz", "omega2"]
+[design]
+kind = "sobol"
+number = 16
+[solve]
+modes = 3
+families = ["bending", "longitudinal"]
+"""
+
+
+@pytest.mark.parametrize("axial_force", ["element_midpoint", "exact"])
+@pytest.mark.parametrize("interpolation", ["step", "linear"])
+def test_cases_of_a_study_have_the_water_of_each(folder, interpolation, axial_force):
+    model = {"axial_force": axial_force, "end_force": "fixed_direction", **BOTH}
+    case = case_of(folder, f"vehicle.interpolation={interpolation}", **model)
+    points = points_of(study(case, STUDY + INPUTS))
+    found = compute_chunk(points, 0)
+    exact = (interpolation, axial_force) == ("step", "element_midpoint")
+    water = set()
+    for i in range(16):
+        own = case
+        for variable in points.variables:
+            own = replaced(own, variable.keys, float(found[variable.name][i]))
+        water.add(sum(part.mass for part in own.added_masses))
+        result = an.solve_modes(own, 3, tolerance=1e-9, families=["bending", "longitudinal"])
+        hz = [m.frequency_hz for m in result.modes if m.number]
+        off = np.abs(found["frequency_hz"][i] - hz)
+        assert np.all(off <= (1e-12 * np.array(hz) if exact else found["error_hz"][i] + 1e-9))
+    assert len(water) == 16
+    assert max(water) > 2 * min(water)
+
+
+@pytest.mark.parametrize("end_force", ["fixed_direction", "follows_body"])
+def test_derivatives_know_the_water(folder, end_force):
+    case = case_of(folder, "condition.cavitation_number=0.021", end_force=end_force, **BOTH)
+    points = points_of(study(case, STUDY + INPUTS))
+    found = local_slopes(points.study, points)
+    for k, variable in enumerate(points.variables):
+        value = value_at(case, variable.keys)
+        step = 1e-4 * value
+        low, high = (
+            an.solve_modes(
+                replaced(case, variable.keys, value + sign * step), 3, tolerance=1e-11
+            ).family("bending")
+            for sign in (-1, 1)
+        )
+        pairs = zip(low, high, strict=True)
+        slopes = [(b.frequency_hz - a.frequency_hz) / (2 * step) for a, b in pairs if a.number]
+        mine = [found[f"bending {n}"][1][k] for n in (1, 2, 3)]
+        np.testing.assert_allclose(mine, slopes, rtol=2e-4, atol=2e-5 * np.abs(slopes).max())
+
+
+def test_a_wrong_name_is_told_and_a_sweep_takes_the_right_one(folder):
+    refused(run("modes", folder / "case.toml", "--set", "model.fin_added_mass=disk"), "plate")
     text = (folder / "case.toml").read_text(encoding="utf-8")
     (folder / "wet").mkdir()
     for name in ("stations.csv", "study.toml"):
         (folder / "wet" / name).write_bytes((folder / name).read_bytes())
     changed = text.replace("[model]", '[model]\nfin_added_mass = "plate"')
     (folder / "wet" / "case.toml").write_text(changed, encoding="utf-8")
-    refused(run("sweep", folder / "wet" / "study.toml"), "fin_added_mass")
-    refused(run("modes", folder / "case.toml", "--set", "model.fin_added_mass=disk"), "plate")
+    assert "bending 1" in run("sweep", folder / "wet" / "study.toml").out

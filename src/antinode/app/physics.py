@@ -27,6 +27,7 @@ _WATER = {"none": "none", "tangent": "tangent"}
 _ONE = {"1": "follows", "0": "fixed"}
 _SWITCH = {"on": "on", "off": "off"}
 _ENDS = {end: end for end in ("free", "pinned", "sliding", "clamped")}
+_ADDED = {"fin_added_mass": "plate", "planing_added_mass": "wedge"}
 _COLUMNS = {"foundation_stiffness": "foundation", "added_mass_per_length": "added mass"}
 
 
@@ -66,11 +67,19 @@ def _of_case(case: Case) -> tuple[Switch, ...]:
     theory = "Timoshenko solves shear and rotary inertia, Euler-Bernoulli leaves them out"
     ends = "whether thrust and the cavitator's drag turn with the body, or keep their direction"
     water = "what fins, planing tail and cavitator do as the body vibrates: nothing, or tangents"
+    added = "whether water moves sideways with fins and planing tail, and is carried along"
     return (
         Switch("theory", "theory", theory, THEORIES, model.theory),
         Switch("forces", "end forces", ends, _FORCES, forces),
         Switch("water", "water's stiffness", water, _WATER, model.hydrodynamic_stiffness),
+        Switch("added", "added mass", added, _SWITCH, "on" if _added(case) else "off"),
     )
+
+
+def _added(case: Case) -> dict[str, str]:
+    """Return the formulas of added mass that a case counts, by their keys."""
+    formulas = {key: getattr(case.model, key) for key in _ADDED}
+    return {key: formula for key, formula in formulas.items() if formula != "none"}
 
 
 def _of_beam(file: BeamFile, beam: Beam, original: BeamFile) -> list[Switch]:
@@ -109,6 +118,10 @@ def pushing(beam: Beam) -> tuple[float, float]:
 def changes_of(key: str, position: str, original: Problem) -> Changes:
     """Return the changes of the file that bring a switch into a position."""
     if isinstance(original, Case):
+        if key == "added":
+            formulas = _added(original) or _ADDED
+            on = position == "on"
+            return {f"model.{k}": formulas.get(k, "none") if on else "none" for k in _ADDED}
         return _case_changes(key, position)
     if key == "theory":
         return {"beam.theory": position}

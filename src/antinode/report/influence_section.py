@@ -19,11 +19,8 @@ _KINK = (
 )
 
 
-_KEPT = "The added mass of wetted parts is kept: what an input does to it is left out."
-
-
-def influence_section(found: Sequence[Influence], *, wet: bool = False) -> Section:
-    """Return the section on sensitivities; `wet` where added mass was solved."""
+def influence_section(found: Sequence[Influence]) -> Section:
+    """Return the section on sensitivities."""
     modes = max((len(each.percent) for each in found), default=0)
     head = ("input", "grows by", *(f"bending {k}" for k in range(1, modes + 1)))
     rows = [_row(each) for each in found]
@@ -31,8 +28,6 @@ def influence_section(found: Sequence[Influence], *, wet: bool = False) -> Secti
         paragraph(_HOW),
         table("Change of frequency [%].", head, rows, left=(0, 1)),
     ]
-    if wet:
-        blocks.append(paragraph(_KEPT))
     if any(each.kink for each in found):
         blocks.append(paragraph(_KINK))
     return Section("Sensitivities", tuple(blocks))

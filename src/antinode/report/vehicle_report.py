@@ -40,7 +40,7 @@ def vehicle_report(case: Case, result: ModalResult, source: Source, command: str
         axial_section(result),
         *end_forces_section(case, result),
         shapes_section(result, "the nose"),
-        influence_section(case_influences(case, result, _MOST_DRAWN), wet=bool(case.added_masses)),
+        influence_section(case_influences(case, result, _MOST_DRAWN)),
         warnings_section(told),
         provenance_section(source, solver_facts(result), command),
     ]

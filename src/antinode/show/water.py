@@ -143,7 +143,7 @@ def _contact_end(contact: Tangent, mode: Mode, x: Array) -> ContactEnd:
     return ContactEnd(mode.name, mode.frequency_hz, contact.room, acceleration, largest)
 
 
-def _added_dict(part: AddedMass) -> dict[str, Any]:
+def _added_dict(part: AddedMass[float]) -> dict[str, Any]:
     return {
         "name": part.name,
         "formula": part.formula,

@@ -58,7 +58,9 @@ class CaseEigenvalues:
     def sensitivity(self, family: FamilyName) -> EigenvalueDerivatives:
         """Return the derivatives of the eigenvalues of a family, of a case."""
         assert self.loads is not None
-        return EigenvalueDerivatives(self.modes[family], self.beam, self.loads)
+        assert isinstance(self.case, Case)
+        beam = self.case.without_added_mass.beam() if self.case.added_masses else self.beam
+        return EigenvalueDerivatives(self.modes[family], beam, self.loads)
 
     def frequencies_hz(self, family: FamilyName) -> Array:
         """Return the frequencies of modes 1, 2, ... [Hz]; negative for a divergent mode."""

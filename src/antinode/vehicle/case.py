@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -24,7 +24,7 @@ from antinode.inputs.units import Frozen
 from antinode.methods import CaseMethods
 
 from .condition import OperatingCondition, Water
-from .hydrodynamics.added_mass import AddedMass, fin_mass, tail_mass
+from .hydrodynamics.added_mass import AddedMass
 from .loads import Loads, loads_of_case
 from .many_loads import ManyLoads, loads_of_many
 from .numbers import ManyCases, Numbers
@@ -88,9 +88,10 @@ class Case(CaseMethods, Frozen):
         return tangents(self.many_loads.cases, self.loads)
 
     @cached_property
-    def added_masses(self) -> tuple[AddedMass, ...]:
+    def added_masses(self) -> tuple[AddedMass[float], ...]:
         """Water that moves sideways with the body, part by part; none unless asked for."""
-        return tuple(part for part in _added_masses(self) if part.mass > 0)
+        parts = (part.of(0) for part in self.many_loads.added_masses)
+        return tuple(part for part in parts if part.mass > 0)
 
     @property
     def without_added_mass(self) -> Case:
@@ -142,15 +143,8 @@ def check_real(case: Case) -> Case:
     Raises
     ------
     InputError
-        If the water's stiffness takes part, or its added mass.
+        If the water's stiffness takes part.
     """
-    for name in ("fin_added_mass", "planing_added_mass"):
-        if getattr(case.model, name) != "none":
-            raise InputError(
-                f"model.{name}: received '{getattr(case.model, name)}'; studies and "
-                'identification solve vehicles without added mass as yet: set it to "none", or '
-                "run 'antinode modes' for each case"
-            )
     if case.model.hydrodynamic_stiffness != "none":
         raise InputError(
             "model.hydrodynamic_stiffness: received 'tangent', whose modes are complex; studies "
@@ -188,48 +182,22 @@ def vehicle_beam(case: Case, acting: tuple[Tangent, ...] | None = None) -> Beam:
     return beam.with_attachments(*feedback) if feedback else beam
 
 
-_FORMULAS: dict[str, tuple[str, int]] = {
-    "plate": ("plate, rho pi c^2/4", 2),
-    "plate_one_face": ("plate with a cavity behind, rho pi c^2/8", 1),
-}
 _LEFT = {
     "fin_added_mass": "added mass of the fins",
     "planing_added_mass": "added mass of the planing tail",
 }
 
 
-def _added_masses(case: Case) -> Iterable[AddedMass]:
-    """Yield the added mass of every set of fins, and of the planing tail."""
-    vehicle, loads, rho, model = case.vehicle, case.loads, case.water.density, case.model
-    if model.fin_added_mass != "none":
-        formula, faces = _FORMULAS[model.fin_added_mass]
-        for k, (fins, load) in enumerate(zip(vehicle.fins, loads.fins, strict=True), 1):
-            root = float(vehicle.radius_at(np.array([load.position]))[0])
-            chord = fins.tip_radius - root if fins.chord is None else fins.chord
-            mass = fin_mass(rho, chord, load.immersion, fins.roll_angles, faces)
-            ends = max(load.position - chord / 2, 0.0), min(load.position + chord / 2, loads.length)
-            yield AddedMass(f"fin set {k}", formula, *ends, mass)
-    length = loads.planing.length
-    if model.planing_added_mass != "none" and length > _SHORTEST * loads.length:
-        mass = tail_mass(rho, loads.cavity, vehicle.radius_profile)
-        ends = loads.length - length, loads.length
-        yield AddedMass("tail", "wedge, rho pi b^2/8", *ends, mass)
-
-
-_SHORTEST = 1e-9  # wetted length over that of the body
-
-
-def _with_water(beam: Beam, parts: Iterable[AddedMass], model: Model) -> Beam:
+def _with_water(beam: Beam, parts: Sequence[AddedMass[float]], model: Model) -> Beam:
     """Return a beam with the water that moves sideways with it, spread evenly along each part."""
     chosen = {name: getattr(model, name) for name in _LEFT}
     if all(value == "none" for value in chosen.values()):
         return beam
-    parts = tuple(parts)
     beam = beam.with_breakpoints([x for part in parts for x in (part.start, part.end)])
     middle, added = (beam.x[1:] + beam.x[:-1]) / 2, np.zeros((len(beam.x) - 1, 2))
     for part in parts:
         inside = (middle > part.start) & (middle < part.end)
-        added[inside] += part.mass / np.sum(np.diff(beam.x)[inside])
+        added[inside] += part.per_length
     left = tuple(_LEFT[name] for name, value in chosen.items() if value == "none")
     return replace(beam, added_mass_per_length=added, left_out=(*beam.left_out, *left))
 

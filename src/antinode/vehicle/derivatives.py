@@ -31,7 +31,6 @@ from antinode.arrays import Array, Interpolation
 from antinode.beam.beam import Beam
 from antinode.beam.checks import ShearForm
 from antinode.beam.families import FAMILIES, FamilyName
-from antinode.beam.mass import moments_within
 from antinode.beam.profile import Profile
 from antinode.modes.backends import BackendName, choose
 from antinode.modes.following import left_states
@@ -39,6 +38,7 @@ from antinode.modes.result import Solution
 from antinode.riccati.chain import Chain, largest_wave_number
 from antinode.riccati.shapes import propagate
 
+from .columns import hat, hats, integrals
 from .forces import ForceOnBody
 from .loads import Loads
 
@@ -210,6 +210,14 @@ class ChainModes:
         signed = np.stack([-turn[0] * move[0], turn[-1] * move[-1]])
         return np.asarray(signed / self._modal_mass)
 
+    def square(self, x: float) -> Array:
+        """Return the square of the displacement at a place over the modal mass, shape (k,)."""
+        right = self.solution.at(np.array([x]))[0, :, 0]
+        left = right
+        if self.chain.follows:
+            left = replace(self.solution, states=self.left_states).at(np.array([x]))[0, :, 0]
+        return np.asarray(right * left / self._modal_mass)
+
     @cached_property
     def solution(self) -> Solution:
         """The modes, exact at every place of the chain, each to a scale of its own."""
@@ -243,69 +251,6 @@ class ChainModes:
         return np.asarray(total / self._modal_mass)
 
 
-class Hats(NamedTuple):
-    """How a column between the stations follows each of its rows, shape (q, stations)."""
-
-    value: Array
-    """Derivative of the value at a point by every row."""
-    ahead: Array
-    """Integral of the same from the nose to the point; the last row is the whole body's."""
-
-
-def hats(x: Array, stations: Array, column: Array, how: Interpolation) -> Hats:
-    """Return how the values of a column at `x`, and their integrals, depend on its rows.
-
-    Parameters
-    ----------
-    x : array, shape (q,)
-        Points [m].
-    stations, column : array, shape (s,)
-        Where the rows stand [m], and their values.
-    how : {"step", "linear", "log"}
-    """
-    k = np.clip(np.searchsorted(stations, x, side="right") - 1, 0, len(stations) - 2)
-    size = np.diff(stations)
-    return Hats(
-        _hat(k, (x - stations[k]) / size[k], column, how), _integrals(x, stations, column, how)
-    )
-
-
-def _hat(k: npt.NDArray[np.int64], t: Array, column: Array, how: Interpolation) -> Array:
-    """Return the derivatives at a fraction `t` of the intervals `k`, shape (..., stations)."""
-    rows = np.arange(len(column))
-    first, second = rows == k[..., None], rows == k[..., None] + 1
-    if how == "step":
-        return np.where(first, 1.0, 0.0)
-    t = t[..., None]
-    if how == "linear":
-        return np.asarray((1 - t) * first + t * second)
-    value = (column[k] * (column[k + 1] / column[k]) ** t[..., 0])[..., None]
-    return np.asarray(value * ((1 - t) * first + t * second) / column)
-
-
-def _integrals(x: Array, stations: Array, column: Array, how: Interpolation) -> Array:
-    points = np.append(x, stations[-1])
-    size = np.diff(stations)
-    every = np.arange(len(size))
-    whole = _partial(every, np.ones(len(size)), column, how) * size[:, None]
-    before = np.concatenate([np.zeros((1, len(column))), np.cumsum(whole, axis=0)])
-    k = np.clip(np.searchsorted(stations, points, side="right") - 1, 0, len(size) - 1)
-    t = (points - stations[k]) / size[k]
-    return np.asarray(before[k] + _partial(k, t, column, how) * size[k][:, None])
-
-
-def _partial(k: npt.NDArray[np.int64], t: Array, column: Array, how: Interpolation) -> Array:
-    """Integrate the derivatives over the first part of intervals, over the intervals' lengths."""
-    rows = np.arange(len(column))
-    first, second = rows == k[:, None], rows == k[:, None] + 1
-    if how == "step":
-        return np.asarray(t[:, None] * first)
-    one = np.ones(len(k))
-    a, b = (column[k], column[k + 1]) if how == "log" else (one, one)
-    J0, J1, _ = moments_within(a, b, one, t, how)
-    return np.asarray(((J0 - J1) / a)[:, None] * first + (J1 / b)[:, None] * second)
-
-
 class ForceChange(NamedTuple):
     """How a force and its place change with a parameter."""
 
@@ -321,6 +266,19 @@ class MassChange(NamedTuple):
 
     density: Callable[[Array], Array]
     ahead: Callable[[Array], Array]
+
+
+class WaterChange(NamedTuple):
+    """How water that moves sideways with a part of the body changes with a parameter."""
+
+    start: float
+    """[m]."""
+    end: float
+    """[m]."""
+    density: float
+    """That it has now [kg/m]."""
+    growth: tuple[float, float, float]
+    """Of start and end [m], and of the density [kg/m], for each unit of the parameter."""
 
 
 class ShearChange(NamedTuple):
@@ -444,6 +402,18 @@ class EigenvalueDerivatives:
             change.ahead(np.array([self._length]))[0],
         )
 
+    def by_water(self, change: WaterChange) -> Array:
+        """Return d(omega^2) for each unit of a parameter that changes added mass, shape (k,)."""
+        modes = self.modes
+        if not self._bends:
+            return np.zeros(len(modes.omega2))
+        inside = (modes.x > change.start) & (modes.x < change.end)
+        start, end, density = change.growth
+        edges = end * modes.square(change.end) - start * modes.square(change.start)
+        return np.asarray(
+            density * modes.by_mass[inside].sum(axis=0) - modes.omega2 * change.density * edges
+        )
+
     def _by_mass(self, density: Array, ahead: Array, total: Array) -> Array:
         """Return density and what it does to N, put together; shape (k,) or (rows, k)."""
         force = self.loads.a_X * (ahead.T - np.multiply.outer(total, self._share_ahead))
@@ -474,7 +444,7 @@ class EigenvalueDerivatives:
         at_points = hats(self.modes.x, stations, column, how)
         ahead = at_points.ahead[:-1]
         if not self._exact:
-            ends = _integrals(self.beam.x, stations, column, how)[:-1]
+            ends = integrals(self.beam.x, stations, column, how)[:-1]
             ahead = ((ends[:-1] + ends[1:]) / 2)[self._interval]
         return self._by_mass(at_points.value, ahead, at_points.ahead[-1])
 
@@ -483,7 +453,7 @@ class EigenvalueDerivatives:
         k = np.clip(np.searchsorted(stations, self.modes.x, "right") - 1, 0, len(stations) - 2)
         t = (self.modes.x - stations[k]) / np.diff(stations)[k]
         value = Profile.of_rows(stations, column, how).at(self.modes.x)
-        return np.asarray(_hat(k, t, column, how).T @ self.modes.by_stiffness(value))
+        return np.asarray(hat(k, t, column, how).T @ self.modes.by_stiffness(value))
 
 
 def force_changes(

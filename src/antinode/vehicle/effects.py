@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,14 +28,22 @@ from .derivatives import (
     ForceChange,
     MassChange,
     ShearChange,
+    WaterChange,
     force_changes,
 )
 from .forces import ForceOnBody, forces_of
+from .hydrodynamics.added_mass import AddedMass
 from .many_loads import loads_of_many
 from .numbers import Keys, ManyCases, Numbers, is_vectorised, replaced, value_at
 from .theory import Sheared, sheared
 
-Forces = tuple[ForceOnBody[float], ...]
+
+class Acting(NamedTuple):
+    """What acts on a body: forces but the thrust, and water that moves with parts of it."""
+
+    forces: tuple[ForceOnBody[float], ...]
+    water: tuple[AddedMass[float], ...]
+
 
 _STEP = 2e-6
 _STATIONS = ("vehicle", "stations")
@@ -68,6 +76,7 @@ class Effect:
         The share of the force at nose (0) or tail (1) that turns with it, which the number is.
     mass : MassChange or None
     shear : ShearChange or None
+    water : tuple of WaterChange
     """
 
     case: Case
@@ -77,6 +86,7 @@ class Effect:
     share: int | None = None
     mass: MassChange | None = None
     shear: ShearChange | None = None
+    water: tuple[WaterChange, ...] = ()
 
     def slope(self, sensitivity: EigenvalueDerivatives) -> Array:
         """Return d(omega^2) of every mode for each unit of the number, shape (k,)."""
@@ -92,6 +102,8 @@ class Effect:
             total = total + sensitivity.by_mass(self.mass)
         if self.shear:
             total = total + sensitivity.by_shear(self.shear)
+        for part in self.water:
+            total = total + sensitivity.by_water(part)
         return np.asarray(total)
 
 
@@ -124,7 +136,7 @@ def effects_between(case: Case, place: Place, values: Sequence[float]) -> list[E
         row = _column(keys[2:-1]), int(keys[-1])
         return [Effect(case, row=row)] * (len(values) - 1)
     cases = [replaced(case, keys, value) for value in values]
-    forces = _forces_at(case, keys, values) if is_vectorised(keys) else [_forces(c) for c in cases]
+    acting = _acting_at(case, keys, values) if is_vectorised(keys) else [_acting(c) for c in cases]
     steps = [high - low for low, high in pairwise(values)]
     masses: list[MassChange | None] = [None] * len(steps)
     shears: list[ShearChange | None] = [None] * len(steps)
@@ -138,8 +150,8 @@ def effects_between(case: Case, place: Place, values: Sequence[float]) -> list[E
             _shear_change(*two, step) for two, step in zip(pairwise(cases), steps, strict=True)
         ]
     return [
-        Effect(case, forces=force_changes(*two, step), mass=mass, shear=shear)
-        for two, step, mass, shear in zip(pairwise(forces), steps, masses, shears, strict=True)
+        Effect(case, mass=mass, shear=shear, **_changes(*two, step))
+        for two, step, mass, shear in zip(pairwise(acting), steps, masses, shears, strict=True)
     ]
 
 
@@ -150,8 +162,8 @@ def effect_of_radius(case: Case, weights: Array) -> Effect:
         replaced(case, (*_STATIONS, "radius"), radius * np.exp(sign * _STEP * weights))
         for sign in (-1, 1)
     )
-    forces = force_changes(_forces(low), _forces(high), 2 * _STEP)
-    return Effect(case, forces=forces, shear=_shear_change(low, high, 2 * _STEP))
+    changes = _changes(_acting(low), _acting(high), 2 * _STEP)
+    return Effect(case, shear=_shear_change(low, high, 2 * _STEP), **changes)
 
 
 def effect_of_mass(case: Case) -> Effect:
@@ -216,21 +228,43 @@ def _share(state: str, states: Sequence[str], burn_fraction: float) -> float:
     return max(0.0, 1.0 - abs(place - states.index(state)))
 
 
-def _forces(case: Case) -> Forces:
-    """Return the forces on the body but the thrust."""
-    return _checked_forces(case, {}, 1)[0]
+def _acting(case: Case) -> Acting:
+    """Return what acts on the body."""
+    return _checked(case, {}, 1)[0]
 
 
-def _forces_at(case: Case, keys: Keys, values: Sequence[float]) -> list[Forces]:
+def _acting_at(case: Case, keys: Keys, values: Sequence[float]) -> list[Acting]:
     """Return the same at several values of a number, all worked out at once."""
-    return _checked_forces(case, {keys: np.array(values)}, len(values))
+    return _checked(case, {keys: np.array(values)}, len(values))
 
 
-def _checked_forces(case: Case, numbers: Numbers, cases: int) -> list[Forces]:
+def _checked(case: Case, numbers: Numbers, cases: int) -> list[Acting]:
     loads = loads_of_many(case.many(numbers, cases))
     for k in range(cases):
         loads.refusals.check(k)
-    return [forces_of(loads.hydrodynamics.forces, k) for k in range(cases)]
+    forces = loads.hydrodynamics.forces
+    return [
+        Acting(forces_of(forces, k), tuple(part.of(k) for part in loads.added_masses))
+        for k in range(cases)
+    ]
+
+
+def _changes(low: Acting, high: Acting, step: float) -> dict[str, Any]:
+    """Return how forces and water change, as fields of an `Effect`."""
+    water = [_water_change(*two, step) for two in zip(low.water, high.water, strict=True)]
+    return {"forces": force_changes(low.forces, high.forces, step), "water": tuple(water)}
+
+
+def _water_change(low: AddedMass[float], high: AddedMass[float], step: float) -> WaterChange:
+    """Return how a part changes; one that is not there on one side has the place of the other."""
+    a, b = (low if low.mass else high), (high if high.mass else low)
+    start, end = (a.start + b.start) / 2, (a.end + b.end) / 2
+    growth = (b.start - a.start) / step, (b.end - a.end) / step
+    mass, length = (high.mass - low.mass) / step, end - start
+    density = (low.mass + high.mass) / 2 / length if length else 0.0
+    if length:
+        mass = (mass - density * (growth[1] - growth[0])) / length
+    return WaterChange(start, end, density, (*growth, mass))
 
 
 def _natural_size(place: Place) -> float:

@@ -14,7 +14,7 @@ from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, at_station
 
 from .hydrodynamics import cavitator, fins
 from .hydrodynamics.cavitation_number import Cavitation, Stream, cavitation
@@ -231,9 +231,4 @@ def _at_station(
     cases: ManyCases, name: str, x: Array, drag: Array, lift: Array
 ) -> ForceOnBody[Array]:
     """Return a force, moved to a station that is the same place but for rounding."""
-    stations = cases.vehicle.stations.x
-    after = np.clip(np.searchsorted(stations, x), 1, len(stations) - 1)
-    low, high = stations[after - 1], stations[after]
-    nearest = np.where(np.abs(x - low) <= np.abs(high - x), low, high)
-    close = np.abs(nearest - x) <= 1e-9 * stations[-1]
-    return ForceOnBody(name, np.where(close, nearest, x), drag, lift)
+    return ForceOnBody(name, at_station(cases.vehicle.stations.x, x), drag, lift)

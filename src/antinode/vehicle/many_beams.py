@@ -70,6 +70,10 @@ class Values(NamedTuple):
     more: Mapping[str, Array]
     """kGA and rho I as `shear_stiffness` and `rotary_inertia`, where these count."""
 
+    def with_water(self, added: Array | None) -> Values:
+        """Return the same with mass per length added in cells [kg/m], if any."""
+        return self if added is None else self._replace(mass=self.mass + added[..., None])
+
 
 @dataclass(frozen=True)
 class ManyBeams:
@@ -85,8 +89,12 @@ class ManyBeams:
     @cached_property
     def exact(self) -> bool:
         """Whether nothing varies inside the cells: N is constant there, and the table steps."""
-        constant = self.loads.cases.model.axial_force == "element_midpoint"
-        return constant and self.loads.mass_distribution.interpolation == "step"
+        return self._midpoint and self.loads.mass_distribution.interpolation == "step"
+
+    @property
+    def _midpoint(self) -> bool:
+        """Whether N is constant between stations."""
+        return self.loads.cases.model.axial_force == "element_midpoint"
 
     @cached_property
     def stiffness(self) -> Array:
@@ -129,9 +137,10 @@ class ManyBeams:
         """Yield cases with both ends of their cells, (cases, n), those with as many together."""
         cells = np.broadcast_to(bounds, (len(rows), len(bounds)))
         places = np.stack([f.x for f in self._forces(rows)[1:]], axis=1)
-        if self.loads.cases.model.axial_force == "element_midpoint":
+        if self._midpoint:
             places = np.full(places.shape, bounds[-1])
-        x = np.sort(np.concatenate([cells, places], axis=1), axis=1)
+        water = [x[rows, None] for part in self.loads.added_masses for x in (part.start, part.end)]
+        x = np.sort(np.concatenate([cells, places, *water], axis=1), axis=1)
         real = np.diff(x, axis=1) > 0
         number = real.sum(axis=1)
         for n in np.unique(number):
@@ -164,12 +173,12 @@ class ManyBeams:
         """Divide cells into steps, and steps into weighted halves."""
         middle = (left + right) / 2
         interval = self.loads.mass_distribution.interval(middle)
-        jump = self._jumps(rows, middle)
+        jump, water = self._jumps(rows, middle), self._water(rows, middle)
         if self.exact:
-            values = self._at(rows, interval, middle[..., None], jump)
+            values = self._at(rows, interval, middle[..., None], jump).with_water(water)
             return self._chain(rows, right - left, _every(values), lambda v: v[..., 0])
         if self.loads.mass_distribution.interpolation == "step" and self._only_force_varies:
-            return self._stepped(rows, left, right, refinement, interval, jump)
+            return self._stepped(rows, left, right, refinement, interval, jump, water)
         steps = np.linspace(0, 1, refinement + 1)[:-1]
         size = (right - left)[..., None] / refinement
         start = left[..., None] + (right - left)[..., None] * steps
@@ -183,6 +192,7 @@ class ManyBeams:
 
         length = np.repeat(spread(size[..., 0]) / 2, 2, axis=1)
         values = self._at(rows, spread(interval), at, spread(jump))
+        values = values.with_water(None if water is None else spread(water))
         return self._chain(rows, length, values, average)
 
     def _chain(
@@ -222,11 +232,12 @@ class ManyBeams:
         refinement: int,
         interval: Integers,
         jump: Array,
+        water: Array | None,
     ) -> Chains:
         """Divide cells in which only N varies, straight: its weighted means are values of it."""
         steps = (np.arange(refinement)[:, None] + halved(np.array(GAUSS))) / refinement
         at = left[..., None] + (right - left)[..., None] * steps.ravel()
-        values = self._at(rows, interval, at, jump)
+        values = self._at(rows, interval, at, jump).with_water(water)
         N, more = values.axial_force, {}
         if self.shear is not None:
             s = 1 / values.more["shear_stiffness"]
@@ -238,8 +249,20 @@ class ManyBeams:
         length, m, EI, N = (of.pop(name) for name in ("length", "m", "EI", "N"))
         return Chains(rows, length, m, EI, N, of, self._following(rows))
 
+    def _water(self, rows: Integers, middle: Array) -> Array | None:
+        """Return the water that moves with cells, by their middles [kg/m]; None without any."""
+        added = None
+        for part in self.loads.added_masses:
+            start, end, density = (v[rows, None] for v in (part.start, part.end, part.per_length))
+            own = np.where((middle > start) & (middle < end), density, 0.0)
+            added = own if added is None else added + own
+        return added
+
     def _jumps(self, rows: Integers, middle: Array) -> Array:
         """Return the drag of all forces ahead of the middles of cells, the cavitator's included."""
+        if self._midpoint:
+            x = self.loads.mass_distribution.x
+            middle = ((x[1:] + x[:-1]) / 2)[self.loads.mass_distribution.interval(middle)]
         forces = [
             f._replace(x=f.x[:, None], F_X=f.F_X[:, None])
             for k, f in enumerate(self._forces(rows))
@@ -257,7 +280,7 @@ class ManyBeams:
         total = masses.moments_ahead[0]
         ahead = _taken(total, rows, interval)[..., None]
         a_X = self.loads.a_X[rows, None, None]
-        if self.loads.cases.model.axial_force == "element_midpoint":
+        if self._midpoint:
             after = _taken(total, rows, interval + 1)[..., None]
             N = np.broadcast_to(jump[..., None] + a_X * (ahead + after) / 2, x.shape)
         else:

@@ -16,7 +16,8 @@ from antinode.arrays import Array
 from antinode.beam.mass import MassDistribution
 
 from .balance import balance, mass_of
-from .forces import Hydrodynamics, hydrodynamics
+from .forces import FinLoads, Hydrodynamics, hydrodynamics
+from .hydrodynamics.added_mass import AddedMass, Plates, added_masses
 from .load_warnings import CheckedRange, LoadWarning, checked_ranges, load_warnings
 from .numbers import ManyCases
 from .plausible import doubtful_vehicles
@@ -104,6 +105,21 @@ class ManyLoads(LoadNumbers[Array]):
     mass_distribution: MassDistribution
 
     @cached_property
+    def added_masses(self) -> tuple[AddedMass[Array], ...]:
+        """Water that moves sideways with the bodies, part by part; none unless asked for."""
+        cases, found = self.cases, self.hydrodynamics
+        return tuple(
+            added_masses(
+                cases.model,
+                cases.number("water", "density"),
+                [_plates(cases, k, fin) for k, fin in enumerate(found.fins)],
+                found.cavity,
+                found.planing.length,
+                cases.vehicle.radius_profile,
+            )
+        )
+
+    @cached_property
     def ranges(self) -> tuple[CheckedRange, ...]:
         """Every range of validity that the cases touch, with their values."""
         return checked_ranges(self.cases, self.hydrodynamics, self.refusals.none)
@@ -117,6 +133,15 @@ class ManyLoads(LoadNumbers[Array]):
                 *doubtful_vehicles(self.cases, self.mass, counted),
                 *load_warnings(self.cases, self.hydrodynamics, counted),
             )
+
+
+def _plates(cases: ManyCases, k: int, fin: FinLoads) -> Plates:
+    """Return a set of fins as what carries water along."""
+    chord = cases.given("vehicle", "fins", k, "chord")
+    if chord is None:
+        tip = cases.number("vehicle", "fins", k, "tip_radius")
+        chord = tip - cases.vehicle.radius_at(fin.position)
+    return Plates(fin.position, chord, fin.immersion, cases.vehicle.fins[k].roll_angles)
 
 
 def loads_of_many(cases: ManyCases) -> ManyLoads:

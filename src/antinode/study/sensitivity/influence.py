@@ -57,10 +57,7 @@ class Influence(NamedTuple):
 
 
 def case_influences(case: Case, result: ModalResult, most: int) -> list[Influence]:
-    """Return what moves the bending modes 1 ... n of a vehicle, solved before.
-
-    Added mass of wetted parts keeps its size and its place.
-    """
+    """Return what moves the bending modes 1 ... n of a vehicle, solved before."""
     omega2 = [mode.omega2 for mode in result.family(BENDING) if mode.number][:most]
     chain = result.solutions[BENDING].chain
     backend = for_one(len(chain.length), len(omega2))

@@ -14,24 +14,28 @@ short fins. The cavity keeps its pressure and its place, and the flow past the b
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from itertools import pairwise
-from typing import Any, NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, at_station
 from antinode.beam.profile import Profile
+from antinode.vehicle.options import Model
 
 from .cavity import Cavity
-from .wetted import wet_angle, wetted_width
+from .wetted import wet_integral, wetted_width
 
-_PANELS = 400  # of the part that may be wet
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+T = TypeVar("T")
+_SHORTEST = 1e-9  # wetted length over that of the body
+_FORMULAS: dict[str, tuple[str, int]] = {
+    "plate": ("plate, rho pi c^2/4", 2),
+    "plate_one_face": ("plate with a cavity behind, rho pi c^2/8", 1),
+}
 
 
-class AddedMass(NamedTuple):
-    """Water that moves sideways with a part of the body.
+class AddedMass(NamedTuple, Generic[T]):
+    """Water that moves sideways with a part of the body: of one case, or arrays of many.
 
     Attributes
     ----------
@@ -39,17 +43,85 @@ class AddedMass(NamedTuple):
         Which part.
     formula : str
         By its name.
-    start, end : float
+    start, end : float or array
         Over which it is spread evenly [m].
-    mass : float
+    mass : float or array
         [kg].
     """
 
     name: str
     formula: str
-    start: float
-    end: float
-    mass: float
+    start: T
+    end: T
+    mass: T
+
+    def of(self, case: int) -> AddedMass[float]:
+        """Return that of one of many cases."""
+        numbers = (float(np.asarray(v)[case]) for v in (self.start, self.end, self.mass))
+        return AddedMass(self.name, self.formula, *numbers)
+
+    @property
+    def per_length(self) -> Any:
+        """[kg/m]; 0 where there is none."""
+        length = np.asarray(self.end) - np.asarray(self.start)
+        return np.where(length > 0, self.mass / np.where(length > 0, length, 1.0), 0.0)
+
+
+class Plates(NamedTuple):
+    """A set of fins in many cases.
+
+    Attributes
+    ----------
+    position, chord : array (cases,)
+        [m].
+    immersion : array (fins, cases)
+        Wetted length of each fin [m].
+    roll : sequence of float
+        Roll angle of each fin [rad], 0 up.
+    """
+
+    position: Array
+    chord: Array
+    immersion: Array
+    roll: Sequence[float]
+
+
+def added_masses(
+    model: Model,
+    density: Array,
+    fins: Sequence[Plates],
+    cavities: Cavity,
+    planing_length: Array,
+    body: Profile,
+) -> Iterator[AddedMass[Array]]:
+    """Yield the added mass of every set of fins, and of the planing tail, that the model counts.
+
+    Parameters
+    ----------
+    model : Model
+    density : array (cases,)
+        Density of the water [kg/m^3].
+    fins : sequence of Plates
+    cavities : Cavity
+        The cavities, their numbers arrays (cases,).
+    planing_length : array (cases,)
+        Wetted length of the tail [m].
+    body : Profile
+        Radius of the body [m].
+    """
+    tail = float(body.x[-1])
+    if model.fin_added_mass != "none":
+        formula, faces = _FORMULAS[model.fin_added_mass]
+        for k, fin in enumerate(fins, 1):
+            mass = fin_mass(density, fin.chord, fin.immersion, fin.roll, faces)
+            start = at_station(body.x, np.maximum(fin.position - fin.chord / 2, 0.0))
+            end = at_station(body.x, np.minimum(fin.position + fin.chord / 2, tail))
+            yield AddedMass(f"fin set {k}", formula, start, end, mass)
+    if model.planing_added_mass != "none":
+        wet = planing_length > _SHORTEST * tail
+        start = at_station(body.x, np.where(wet, tail - planing_length, tail))
+        mass = np.where(wet, tail_mass(density, cavities, body), 0.0)
+        yield AddedMass("tail", "wedge, rho pi b^2/8", start, np.full(len(wet), tail), mass)
 
 
 def plate(density: Any, chord: Any, *, faces: int = 2) -> Any:
@@ -85,9 +157,7 @@ def circle(density: Any, radius: Any) -> Any:
     return density * math.pi * np.square(radius)
 
 
-def fin_mass(
-    density: float, chord: float, immersion: Sequence[float], roll: Sequence[float], faces: int
-) -> float:
+def fin_mass(density: Any, chord: Any, immersion: Any, roll: Sequence[float], faces: int) -> Any:
     """Return the added mass of a set of fins that moves up and down [kg].
 
     A fin at the roll angle phi moves along its normal by ``abs(sin phi)`` of that, and so counts
@@ -95,48 +165,33 @@ def fin_mass(
 
     Parameters
     ----------
-    chord : float
-        [m].
-    immersion, roll : sequence of float
-        Of each fin: wetted length [m], roll angle [rad], 0 up.
+    density, chord : float or array (cases,)
+        [kg/m^3], [m].
+    immersion : array_like (fins,) or (fins, cases)
+        Of each fin: wetted length [m].
+    roll : sequence of float
+        Of each fin: roll angle [rad], 0 up.
     """
-    span = np.sum(np.asarray(immersion) * np.sin(roll) ** 2)
-    return float(plate(density, chord, faces=faces) * span)
+    span = np.tensordot(np.sin(roll) ** 2, np.asarray(immersion), 1)
+    return plate(density, chord, faces=faces) * span
 
 
-def tail_mass(density: float, cavity: Cavity, body: Profile) -> float:
-    """Return the added mass of the wetted part of the body aft of the cavity's middle [kg].
+def tail_mass(density: Array, cavities: Cavity, body: Profile) -> Array:
+    """Return the added mass of the wetted part of bodies aft of the cavities' middles [kg].
 
     Parameters
     ----------
-    cavity : Cavity
-        Of one case.
+    density : array (cases,)
+        Density of the water [kg/m^3].
+    cavities : Cavity
+        The cavities, their numbers arrays (cases,).
     body : Profile
-        Radius of the body [m].
+        Radius of the body, the same for all cases [m].
     """
-    tail = float(body.x[-1])
-    start = min(float(cavity.L_c) / 2, tail)
-    inside = [float(x) for x in (*body.x, float(cavity.L_c)) if start < x < tail]
-    edges = np.concatenate(
-        [np.linspace(a, b, _PANELS + 1)[:-1] for a, b in pairwise([start, *inside, tail])]
-        + [[tail]]
-    )
-    half = np.diff(edges)[:, None] / 2
-    x = (edges[:-1, None] + half * (1 + _NODES)).ravel()
-    strips = _strips(density, x, cavity, _radius(body, x))
-    return float(np.sum(strips.reshape(len(half), -1) * half * _WEIGHTS))
+    return density * wet_integral(cavities, body, _strips)
 
 
-def _radius(body: Profile, x: Array) -> Array:
-    interval = np.clip(np.searchsorted(body.x, x) - 1, 0, len(body.x) - 2)
-    share = (x - body.x[interval]) / np.diff(body.x)[interval]
-    low, high = body.ends[interval].T
-    return np.asarray(low + (high - low) * share)
-
-
-def _strips(density: float, x: Array, cavity: Cavity, R: Array) -> Array:
-    """Return the added mass per length at places [kg/m]."""
-    angle = wet_angle(R, cavity.radius(x), cavity.axis_offset(x))
-    part = wedge(density, wetted_width(R, angle, "projected"))
-    closed = angle >= 2 * math.pi * (1 - 1e-12)
-    return np.asarray(np.where(closed, circle(density, R), part))
+def _strips(R: Array, angle: Array) -> Array:
+    """Return the added mass per length and density [m^2]."""
+    part = wedge(1.0, wetted_width(R, angle, "projected"))
+    return np.asarray(np.where(angle >= 2 * math.pi * (1 - 1e-12), circle(1.0, R), part))

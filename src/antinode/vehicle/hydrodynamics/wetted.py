@@ -18,6 +18,7 @@ Considering Hydrodynamic Conditions", eq. 16, with the area as docs/theory/hydro
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import Any, NamedTuple
@@ -161,13 +162,7 @@ def wetted_surface(cavities: Cavity, body: Profile) -> WettedSurface:
         Radius of the body, the same for all cases [m]; linear on every interval.
     """
     cases, tail, form = len(cavities.L_c), float(body.x[-1]), cavities.model.planing_area
-    pieces = _pieces(cavities.course, body)
-    is_behind = pieces.start >= pieces.course.closure
-    behind = pieces.take(np.flatnonzero(is_behind))
-    ahead = pieces.take(np.flatnonzero(~(is_behind | _is_dry(pieces))))
-    ahead = _split_at_contacts(ahead, max(_FEWEST, -(-_SAMPLES // (len(body.x) - 1))))
-    middle = ahead.start + ahead.width / 2
-    ahead = ahead.take(np.flatnonzero(_outside(*ahead.circles(middle)) > 0))
+    ahead, behind = _wet_pieces(cavities, body)
     blocks = [_integrals(ahead.take(block), form) for block in _blocks(ahead, len(_T))]
     case = np.concatenate([ahead.case, behind.case])
     parts = [(ahead.width, *map(np.concatenate, zip(*blocks, strict=True)))]
@@ -179,6 +174,42 @@ def wetted_surface(cavities: Cavity, body: Profile) -> WettedSurface:
     wet = area > 0
     centroid = np.where(wet, moment / np.where(wet, area, 1.0), tail)
     return WettedSurface(np.where(wet, length, 0.0), area, centroid)
+
+
+def wet_integral(cavities: Cavity, body: Profile, strip: Callable[[Array, Array], Array]) -> Array:
+    """Integrate what a strip of the wetted part carries, from the cavities' middles to the tail.
+
+    Parameters
+    ----------
+    cavities : Cavity
+        The cavities, their numbers arrays (cases,).
+    body : Profile
+        Radius of the body, the same for all cases [m]; linear on every interval.
+    strip : callable
+        Per length, of the body's radius [m] and the angle of its circle that is wet [rad].
+    """
+    total = np.zeros(len(cavities.L_c))
+    ahead, behind = _wet_pieces(cavities, body)
+    for pieces, round_ in ((ahead, False), (behind, True)):
+        for block in _blocks(pieces, len(_T)):
+            some = pieces.take(block)
+            x = some.start + some.width * _T
+            R = some.radius(x)
+            angle = np.full(x.shape, 2 * math.pi) if round_ else wet_angle(*some.circles(x))
+            strips = reduce(np.add, some.width * _DT * strip(R, angle))
+            total += np.bincount(some.case, strips, minlength=len(total))
+    return total
+
+
+def _wet_pieces(cavities: Cavity, body: Profile) -> tuple[_Pieces, _Pieces]:
+    """Return the pieces of many bodies that are wet, ahead of the closures and behind them."""
+    pieces = _pieces(cavities.course, body)
+    is_behind = pieces.start >= pieces.course.closure
+    behind = pieces.take(np.flatnonzero(is_behind))
+    ahead = pieces.take(np.flatnonzero(~(is_behind | _is_dry(pieces))))
+    ahead = _split_at_contacts(ahead, max(_FEWEST, -(-_SAMPLES // (len(body.x) - 1))))
+    middle = ahead.start + ahead.width / 2
+    return ahead.take(np.flatnonzero(_outside(*ahead.circles(middle)) > 0)), behind
 
 
 def _is_dry(pieces: _Pieces) -> npt.NDArray[np.bool_]:

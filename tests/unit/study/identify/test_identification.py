@@ -22,8 +22,7 @@ from antinode.study.identify.fit import Search, robust_cost
 from antinode.study.identify.fitted_case import case_toml, stations_csv, write_identification
 from antinode.study.identify.identification import prepare
 from antinode.study.identify.observations import pair
-from antinode.vehicle.columns import interpolation_matrix
-from antinode.vehicle.derivatives import hats
+from antinode.vehicle.columns import hats, interpolation_matrix
 from cli_run import run
 
 FIXED = an.Model(end_force="fixed_direction")
@@ -97,7 +96,9 @@ def differences(misfit, vector, entry):
     [("step", "exact"), ("step", "element_midpoint"), ("linear", "exact"), ("log", "exact")],
 )
 def test_the_jacobian_is_that_of_the_whole_computation(folder, interpolation, axial_force):
-    shares = ["model.thrust_follows=0.9", "model.cavitator_follows=0.8"]
+    wet = ["model.fin_added_mass=plate", "model.planing_added_mass=wedge"]
+    shares = [*(wet if interpolation == "linear" else [])]
+    shares += ["model.thrust_follows=0.9", "model.cavitator_follows=0.8"]
     chosen = [f"vehicle.interpolation={interpolation}", f"model.axial_force={axial_force}", *shares]
     misfit = everything(an.load_case(folder / "case.toml", chosen))
     random = np.random.default_rng(3)
