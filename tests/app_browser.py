@@ -25,6 +25,9 @@ FLAGS = (
     "--enable-unsafe-swiftshader",
 )
 
+LONGEST = 120_000.0
+"""What a test waits for at most, on a machine that is busy with other work [ms]."""
+
 
 def run_async(coroutine):
     """Run a coroutine in a thread of its own: playwright keeps a loop in the main one."""
@@ -32,7 +35,7 @@ def run_async(coroutine):
         return pool.submit(asyncio.run, coroutine).result()
 
 
-def wait_for(url, most=30.0):
+def wait_for(url, most=120.0):
     """Wait until a server answers [s]."""
     parts, end = urlsplit(url), time.monotonic() + most
     while time.monotonic() < end:
@@ -89,7 +92,7 @@ class Tab:
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("request", lambda request: self.requests.append(request.url))
         self.page.on("websocket", lambda socket: self.requests.append(socket.url))
-        self.page.set_default_timeout(30_000)
+        self.page.set_default_timeout(LONGEST)
         self.open(url)
 
     def open(self, url):
@@ -102,30 +105,52 @@ class Tab:
         self.page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
         self.page.set_viewport_size({"width": width, "height": 800})
         self.page.evaluate("window.scrollTo(0, 0)")
-        self.settle()
         self.page.mouse.move(1, 1)
-        self.page.wait_for_timeout(300)
+        self.settle()
+        self.page.wait_for_timeout(300)  # charts move by scripts
+        self.stand_still()
 
     def picture(self):
         """Return a picture of the window, on a phone of the whole page."""
         return self.page.screenshot(full_page=self.page.viewport_size["width"] < 760)
 
     def settle(self):
-        """Wait until a full result stands in the table."""
-        self.page.wait_for_selector(".an-table tbody tr")
-        self.page.wait_for_selector(".an-table:not(.an-quick)")
+        """Wait until all that the page has sent is answered and drawn, a full result in the table.
+
+        The server answers the question after all that came before it, events that were on their
+        way included; files that are dropped go another way: wait for what they bring.
+        """
+        self.page.wait_for_function("window.antinode?.shown > 0")
+        asked = self.page.evaluate("window.antinode.ask()")
+        self.page.wait_for_function("(asked) => window.antinode.answered >= asked", arg=asked)
+        self.page.wait_for_selector(".an-table:not(.an-quick) tbody tr")
+
+    def stand_still(self):
+        """Wait until nothing moves by the style sheet: menus, thumbs, messages."""
+        self.page.wait_for_function(
+            "document.getAnimations().every((a) => a.playState !== 'running'"
+            " || a.effect.getComputedTiming().endTime === Infinity)"
+        )
 
     def frequency(self, mode=1):
         """Return the text of a mode's frequency."""
         return self.page.locator(".an-table tbody tr").nth(mode - 1).locator(".an-hz").inner_text()
 
-    def wait_for_change(self, before, mode=1):
-        """Wait until a mode's frequency is another one."""
+    def wait_for_frequency(self, text, mode=1):
+        """Wait until a mode's frequency is the one that is stated, of a full result."""
         script = (
-            "([row, old]) => document.querySelectorAll('.an-table tbody .an-hz')[row]"
-            "?.innerText !== old"
+            "([row, text]) => document.querySelectorAll('.an-table:not(.an-quick) tbody .an-hz')"
+            "[row]?.innerText === text"
         )
-        self.page.wait_for_function(script, arg=[mode - 1, before])
+        self.page.wait_for_function(script, arg=[mode - 1, text])
+        self.settle()
+
+    def changed(self, before, mode=1):
+        """Return the text of a mode's frequency once all is answered: another than before."""
+        self.settle()
+        now = self.frequency(mode)
+        assert now != before
+        return now
 
     def set_field(self, label, text):
         """Type into a field."""

@@ -42,9 +42,7 @@ def _snapshots(tab):
     tab.page.locator("[data-name=compare] p").wait_for()
     for count, (thrust, newtons) in enumerate((("90", "90000 N"), ("100", "100000 N")), 3):
         tab.page.get_by_role("button", name="Keep").click()
-        tab.page.wait_for_function(
-            f"window.antinode.data.compare.columns.length === {count}", timeout=60_000
-        )
+        tab.page.wait_for_function(f"window.antinode.data.compare.columns.length === {count}")
         tab.set_field("thrust [kN]", thrust)
         tab.page.locator("[data-name=compare] td", has_text=newtons).last.wait_for()
     tab.settle()
@@ -80,8 +78,7 @@ def _attached(tab):
         before = tab.frequency(1)
         tab.page.get_by_role("button", name="Attach").click()
         tab.page.get_by_role("menuitem", name=what, exact=True).click()
-        tab.wait_for_change(before)
-        tab.settle()
+        tab.changed(before)
 
 
 def _attaching(tab):

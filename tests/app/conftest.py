@@ -2,7 +2,7 @@
 
 import pytest
 
-from app_browser import CHROMIUM, FLAGS, Tab, serving
+from app_browser import CHROMIUM, FLAGS, LONGEST, Tab, serving
 
 
 @pytest.fixture(scope="module")
@@ -28,6 +28,7 @@ def chromium():
 def context(chromium):
     """One profile for all pages of a file: scripts are fetched and read once."""
     context = chromium.new_context(permissions=["clipboard-read", "clipboard-write"])
+    context.set_default_timeout(LONGEST)
     yield context
     context.close()
 

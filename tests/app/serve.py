@@ -1,4 +1,4 @@
-"""Serve the page on loopback for a test, and stop by itself after some minutes: serve.py [FILE]."""
+"""Serve the page on loopback for a test, and stop by itself after an hour: serve.py [FILE]."""
 
 import os
 import sys
@@ -7,7 +7,7 @@ from pathlib import Path
 
 from antinode.app.server import run_app
 
-LONGEST = 900.0
+LONGEST = 3600.0
 
 
 def main():

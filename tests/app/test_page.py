@@ -9,6 +9,7 @@ import pytest
 pytest.importorskip("nicegui", reason="nicegui is not installed (extra web)")
 
 from nicegui import Client, ui
+from nicegui.events import GenericEventArguments
 from nicegui.testing.user_simulation import user_simulation
 
 from antinode.app.page import Page
@@ -38,7 +39,7 @@ def visit(action, example="starter", complaint=""):
     run_async(main())
 
 
-async def result(page, wanted, most=10.0):
+async def result(page, wanted, most=60.0):
     """Wait until the session is as wanted."""
     for _ in range(int(most / 0.05)):
         if wanted(page.session):
@@ -128,8 +129,7 @@ def test_units_are_those_of_the_view():
     async def act(user, page):
         one(user, "units").value = "US"
         await result(page, lambda s: s.state.view.units == "US")
-        await asyncio.sleep(0.5)
-        assert one(user, "field-condition.speed").value == "262.467"
+        await result(page, lambda _: one(user, "field-condition.speed").value == "262.467")
         assert isinstance(one(user, "field-condition.speed"), ui.input)
 
     visit(act)
@@ -165,3 +165,25 @@ def test_a_page_that_is_closed_is_forgotten():
             assert [page() is not None for page in pages[:-1]] == [False] * 3
 
     run_async(main())
+
+
+def test_rest_comes_after_all_that_was_asked_for():
+    """Also after work whose end begins more work, as that of a file that is opened."""
+
+    async def act(user, page):
+        session = page.session
+        session.change({"condition.speed": 90.0})
+        await session.rest()
+        assert session.answer.full
+        assert session.answer.case.condition.speed == 90.0
+        user.find(marker="example-tower").click()
+        await asyncio.sleep(0)  # the click's own work has begun
+        await session.rest()
+        assert session.answer.case is None
+        assert session.answer.full
+        sent = []
+        page._board.apply = sent.append
+        await page._asked(GenericEventArguments(sender=page._board, client=user.client, args=7))
+        assert sent == [{"answered": 7}]
+
+    visit(act)

@@ -138,18 +138,24 @@ def test_it_moves_with_a_slider_while_full_answers_are_on_their_way(context, add
             .querySelector('.q-slider__track-container');
         slider.focus();
         const view = window.antinode.views.response, show = view.show;
-        const start = performance.now();
+        const before = window.antinode.data.response.peaks[0].hz;
         const seen = new Promise((done) => {
-            view.show = (data) => { show.call(view, data); done(performance.now() - start); };
+            setTimeout(() => done("too late"), 100_000);
+            view.show = (data) => {
+                show.call(view, data);
+                if (data.peaks[0].hz !== before)
+                    done([data.quick, window.antinode.data.frequencies.quick]);
+            };
         });
         slider.dispatchEvent(new KeyboardEvent('keydown', {keyCode: code, bubbles: true}));
-        const time = await seen;
+        const found = await seen;
         view.show = show;
-        await new Promise((done) => setTimeout(done, 150));
-        return time;
+        return found;
     }"""
-    times = [tab.page.evaluate(script, code) for code in (39, 39, 37, 39, 37, 39, 37, 39, 39)]
-    assert statistics.median(times) < 1500  # 100 where nothing else runs: benchmarks/app.md
+    codes = (39, 39, 37, 39, 37, 39, 37, 39, 39)
+    moved = [tab.page.evaluate(script, code) for code in codes]  # times are in benchmarks/app.md
+    assert moved == [[True, True]] * len(codes)  # first the quick ones, beside a quick table
+    tab.settle()
     tab.page.wait_for_selector(".an-peaks:not(.an-quick) td")
     assert tab.errors == []
     tab.page.close()
@@ -168,6 +174,7 @@ def test_another_output_by_the_menu(context, address):
     tab.page.get_by_label("response: amplitude").press("Enter")
     title = "window.antinode.views.response.instance.getOption().title[0].text"
     tab.page.wait_for_function(f"{title}.startsWith('2 kN lateral force at 80 m')")
+    tab.settle()
     tab.page.wait_for_selector(".an-peaks:not(.an-quick) td")
     shown = tab.page.evaluate("window.antinode.views.response.text()").splitlines()[1].split("\t")
     drawing = read_example("drawing").checked[1]
@@ -186,6 +193,7 @@ def test_another_output_by_the_menu(context, address):
     tab.page.get_by_role("option", name="ratio of modes").click()
     tab.page.get_by_label("response: damping ratio").fill("0.05")
     tab.page.get_by_label("response: damping ratio").press("Enter")
+    tab.settle()
     tab.page.wait_for_selector(".an-peaks:not(.an-quick) td")
     assert tab.errors == []
     tab.page.close()
@@ -222,13 +230,14 @@ def test_a_snapshot_lies_beside_shapes_and_response(context, address):
     tab.page.get_by_role("button", name="Keep").click()
     before = tab.frequency(1)
     tab.page.get_by_role("button", name="Euler-Bernoulli").click()
-    tab.wait_for_change(before)
+    tab.changed(before)
     tab.page.get_by_label("What this panel shows").click()
     tab.page.get_by_role("option", name="Response").click()
     series = "window.antinode.views.{}.instance.getOption()?.series"
     tab.page.wait_for_function(
         f"{series.format('response')}?.find((s) => s.id === 'kept')?.data.length > 100"
     )
+    tab.settle()
     shapes = tab.page.evaluate(series.format("modes") + ".map((s) => [s.id, s.data])")
     now, kept = (np.array(dict(shapes)[f"{what} 3"]) for what in ("mode", "kept"))
     exact = [quick_answer(own).quick for own in (State(read_example("starter")),)]

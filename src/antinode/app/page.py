@@ -95,6 +95,7 @@ class Page:
             self._board.on("chosen", self._choose)
             self._board.on("told", lambda e: self._tell(str(e.args)))
             self._board.on("released", self.session.release)
+            self._board.on("asked", self._asked)
             self._head = ui.element("header").classes("an-head")
             Picture("strip", "Frequencies in short", role="region").classes("an-strip")
             self._side = ui.element("aside").classes("an-side").props('aria-label="Inputs"')
@@ -313,6 +314,11 @@ class Page:
     def _ready(self, event: events.GenericEventArguments) -> None:
         self._system_dark = bool(event.args)
         self.session.again()
+
+    async def _asked(self, event: events.GenericEventArguments) -> None:
+        """Tell the browser once all that it sent before is answered."""
+        await self.session.rest()
+        self._board.apply({"answered": event.args})
 
     def _moved(self, event: events.GenericEventArguments) -> None:
         """Take where a mark of the sketch was dragged to."""

@@ -89,6 +89,7 @@ class Session:
         self._answered: State | None = None
         self._snapshots: list[Snapshot] = []
         self._task: asyncio.Task[None] | None = None
+        self._jobs: set[asyncio.Future[Any]] = set()
         self._changed = asyncio.Event()
         self._curve: Curve | None = None
 
@@ -376,7 +377,15 @@ class Session:
 
     async def run(self, work: Callable[[], Any]) -> Any:
         """Do some work beside the event loop."""
-        return await asyncio.get_running_loop().run_in_executor(_workers, work)
+        job = asyncio.get_running_loop().run_in_executor(_workers, work)
+        self._jobs.add(job)
+        job.add_done_callback(self._jobs.discard)
+        return await job
+
+    async def rest(self) -> None:
+        """Return once nothing is under way: all that was asked for before is answered."""
+        while under_way := [work for work in (self._task, *self._jobs) if work and not work.done()]:
+            await asyncio.wait(under_way)
 
     def _send(self, data: Mapping[str, Any], **more: Any) -> None:
         """Send those parts that differ from what the browser has."""

@@ -55,7 +55,7 @@ export default {
       if ("stale" in patch) document.querySelector(".an-main")?.classList.toggle("an-stale", patch.stale);
       if ("address" in patch) window.history.replaceState(window.history.state, "", patch.address);
       registry.sequence = patch.sequence ?? registry.sequence;
-      requestAnimationFrame(() => requestAnimationFrame(() => (registry.shown = registry.sequence)));
+      requestAnimationFrame(() => requestAnimationFrame(() => registry.drawn(patch.answered)));
     },
     play(on) {
       for (const view of Object.values(registry.views)) view.play?.(on);

@@ -14,6 +14,8 @@ export const kinds = {
   ...{ mode: forces, effects: sheet, ends: sheet, stability: sheet, compare: sheet },
 };
 
+const HELD_BACK = 100; // milliseconds, more than those for which events of sliders wait for the next
+
 // All pictures of the page by name; what arrives before a picture exists waits for it.
 export const registry = {
   views: {},
@@ -21,6 +23,8 @@ export const registry = {
   data: {}, // the last of each
   sequence: 0,
   shown: 0,
+  asked: 0,
+  answered: 0,
   add(name, view) {
     this.views[name] = view;
     if (name in this.waiting) view.show(this.waiting[name]);
@@ -37,6 +41,16 @@ export const registry = {
     else this.waiting[name] = data;
   },
   emit() {}, // to the server; the board says how
+  // Returns a number that `answered` reaches once the server has answered all that was sent before.
+  ask() {
+    const number = ++this.asked;
+    setTimeout(() => this.emit("asked", number), HELD_BACK);
+    return number;
+  },
+  drawn(answered) {
+    this.shown = this.sequence;
+    this.answered = answered ?? this.answered;
+  },
   // A panel fills the page, and again takes its place; Escape gives it back too.
   enlarge(button) {
     const panel = button.closest(".an-card");
