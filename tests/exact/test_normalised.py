@@ -93,6 +93,31 @@ def test_the_compiled_call_gives_what_the_readable_one_does(what, by_mass, modes
             assert np.all(np.abs(found - expected) <= 1e-11 * (np.abs(expected) + sizes)), name
 
 
+@pytest.mark.parametrize("what", ["", "points", "sheared"])
+@pytest.mark.parametrize("modes", [3, 11])
+def test_modes_are_solved_and_scaled_in_one_compiled_call(what, modes):
+    """A rigid motion is given, whatever its chain: it is not solved for."""
+    rng = np.random.default_rng([len(what), modes, 7])
+    for turn in range(4):
+        given = random_chain(rng, what)
+        zero = [] if turn % 2 else [0.0]
+        found = [value.omega2 for value in readable.find_eigenvalues(given, modes - len(zero))]
+        omega2 = np.array(zero + found)
+        motions = np.full((modes, 2), np.nan)
+        motions[: len(zero)] = 0.3, -1.1
+        places = places_of(rng, given)
+        chain = compiled.cut(given, places, omega2)
+        wanted = Wanted(places, rng.uniform(0.1, 1, (2, len(chain.length))), False)
+        mine, theirs = (
+            how.normal_modes(chain, omega2, motions, wanted) for how in (compiled, readable)
+        )
+        for got, expected in zip(mine[:2], theirs[:2], strict=True):
+            size = np.max(np.abs(expected), axis=(0, 1))
+            assert np.max(np.abs(got - expected) / size) < 1e-8
+        for got, expected in zip(mine.forms[:2], theirs.forms[:2], strict=True):
+            assert got == pytest.approx(expected, rel=1e-8, abs=1e-8 * np.max(np.abs(expected)))
+
+
 def test_segments_too_long_for_the_series_are_cut():
     chain = bending_chain(np.ones(3), np.ones(3), np.ones(3), np.zeros(3))
     places = np.linspace(0, 3, 7)

@@ -113,6 +113,12 @@ class Backend(Protocol):
         """Return modes scaled as asked, with their forms, at places along the chain."""
         ...
 
+    def normal_modes(
+        self, chain: Chain, omega2: Array, motions: Array, wanted: Wanted, /
+    ) -> Normalised:
+        """Return modes that are apart, known or solved, as `normalise` scales them."""
+        ...
+
     def driven(
         self, chain: Chain, columns: Columns, loads: Loads, wanted: Integers, /
     ) -> DrivenChain:

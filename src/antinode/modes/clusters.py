@@ -8,6 +8,8 @@ for mixtures of solutions whose omega^2 all but agree are solutions.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from antinode.arrays import Array
@@ -28,7 +30,7 @@ def part(backend: Backend, chain: Chain, omega2: Array, states: Array) -> Array:
         Ascending [rad^2/s^2].
     states : array, shape (n + 1, k, s)
     """
-    if np.all(omega2[1:] - omega2[:-1] > _NEAR * np.abs(omega2[1:])):
+    if are_apart(omega2.tolist()):
         return states
     groups = [group for group in near_groups(omega2) if len(group) > 1]
     if not groups:
@@ -46,6 +48,11 @@ def part(backend: Backend, chain: Chain, omega2: Array, states: Array) -> Array:
             if parted is not None:
                 states[:, group] = parted
     return states
+
+
+def are_apart(omega2: list[float]) -> bool:
+    """Tell whether ascending omega^2 are so far apart that each has its shape by itself."""
+    return all(b - a > _NEAR * abs(b) for a, b in pairwise(omega2))
 
 
 def near_groups(omega2: Array) -> list[Array]:

@@ -158,25 +158,30 @@ def pivot_of(beam: Beam) -> float | None:
     return float(-freedoms[0, 0] / freedoms[0, 1]) if len(freedoms) == 1 else None
 
 
-def rigid_state(beam: Beam, chain: Chain, name: str) -> Array:
-    """Return the state of a rigid mode at omega^2 = 0, shape (nodes, s)."""
-    state = np.zeros((len(chain.length) + 1, chain.law.size))
+def rigid_motion(beam: Beam, chain: Chain, name: str) -> tuple[float, float]:
+    """Return a and b of a rigid mode at omega^2 = 0: ``a + b x``, x from the left end."""
     if name == f"rigid {FAMILIES[chain.law.name].rigid[0]}":
-        state[:, 0] = 1.0
-        return state
+        return 1.0, 0.0
     freedoms = beam.freedoms(chain.law.name)
-    state[:, 1] = 1.0
     if len(freedoms) == 2:
-        state[:, 0] = chain.nodes - centre_of_mass(chain)
-        return state
+        return -centre_of_mass(chain), 1.0
     pivot = float(-freedoms[0, 0] / freedoms[0, 1])
     holding = _node_at(pivot, chain.nodes, chain.points)
     if holding is not None and not holding.holds:  # a spring gives way to what it takes
         left, right = chain.following
         pivot += (right - left) / holding.spring
-    state[:, 0] = chain.nodes - pivot
-    if chain.follows:
-        state[:, 3] = np.append(chain.axial_force, chain.axial_force[-1])
+    return -pivot, 1.0
+
+
+def rigid_state(beam: Beam, chain: Chain, name: str) -> Array:
+    """Return the state of a rigid mode at omega^2 = 0, shape (nodes, s)."""
+    state = np.zeros((len(chain.length) + 1, chain.law.size))
+    a, b = rigid_motion(beam, chain, name)
+    state[:, 0] = a + b * chain.nodes
+    if b:
+        state[:, 1] = b
+        if chain.follows and len(beam.freedoms(chain.law.name)) == 1:
+            state[:, 3] = np.append(chain.axial_force, chain.axial_force[-1])
     return state
 
 

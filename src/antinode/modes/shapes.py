@@ -11,13 +11,14 @@ from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES, FamilyName
 from antinode.beam.sections.shapes import THIN_TUBE
 from antinode.riccati.chain import Chain
-from antinode.riccati.normalised import Forms
+from antinode.riccati.normalised import Forms, Normalised, Wanted
 from antinode.riccati.roots import Eigenvalue
 from antinode.riccati.shapes import Energies
 
 from .backends import Backend
-from .clusters import part
-from .rigid import rigid_state
+from .clusters import are_apart, part
+from .following import left_states
+from .rigid import rigid_motion, rigid_state
 
 _SLACK = 1e-9  # of a piece: rounding makes no further one
 
@@ -34,6 +35,29 @@ def output_grid(beam: Beam, modes: int) -> Array:
     doubled = sorted({int(np.argmin(np.abs(beam.x - x))) for x in inner})
     grid = np.append(points, beam.x[-1])
     return np.sort(np.append(grid, beam.x[doubled])) if doubled else grid
+
+
+def normalised_modes(
+    solver: Backend,
+    beam: Beam,
+    chain: Chain,
+    eigenvalues: list[Eigenvalue],
+    keep: list[int],
+    names: list[tuple[str, int]],
+    wanted: Wanted,
+) -> tuple[Array, Normalised]:
+    """Return omega^2 and the kept modes, scaled as asked; rigid ones at omega^2 = 0 are known."""
+    values = [eigenvalues[k].value for k in keep]
+    omega2 = np.array(values)
+    still = [c for c, k in enumerate(keep) if eigenvalues[k].omega2 == 0.0 and names[k][1] == 0]
+    if not chain.follows and are_apart([v for c, v in enumerate(values) if c not in still]):
+        motions = np.full((len(keep), 2), np.nan)
+        for c in still:
+            motions[c] = rigid_motion(beam, chain, names[keep[c]][0])
+        return omega2, solver.normal_modes(chain, omega2, motions, wanted)
+    states = shapes(solver, beam, chain, eigenvalues, keep, names)
+    left = left_states(solver, chain, states, omega2) if chain.follows else None
+    return omega2, solver.normalise(chain, states, omega2, wanted, left)
 
 
 def shapes(

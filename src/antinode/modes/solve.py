@@ -30,12 +30,11 @@ from antinode.text import short
 
 from .backends import Backend, BackendName, choose, for_one
 from .brackets import ROUNDING, cancelling
-from .following import left_states
 from .hertz import settled
 from .naming import name_modes, with_joint_brackets
 from .refinement import NEAR_ZERO, Solved, solve_family
 from .result import Damping, Kind, Method, ModalResult, Mode, Normalisation, Solution
-from .shapes import left_out, model_errors_of, output_grid, shapes
+from .shapes import left_out, model_errors_of, normalised_modes, output_grid
 from .solvers import Solver, solver_of
 from .warnings import result_warnings
 
@@ -254,12 +253,11 @@ def _modes_of(
         if number <= modes or value.order < 0 or value.imaginary
     ]
     places = grid - grid[0]
-    omega2 = np.array([solved.eigenvalues[k].value for k in keep])
-    chain = backend.cut(solved.chain, places, omega2)
-    states = shapes(backend, beam, chain, solved.eigenvalues, keep, names)
-    left = left_states(backend, chain, states, omega2) if chain.follows else None
+    chain = backend.cut(solved.chain, places, np.array([solved.eigenvalues[k].value for k in keep]))
     wanted = Wanted(places, left_out(beam, chain), normalisation == "mass")
-    states, at_grid, forms = backend.normalise(chain, states, omega2, wanted, left)
+    omega2, (states, at_grid, forms) = normalised_modes(
+        backend, beam, chain, solved.eigenvalues, keep, names, wanted
+    )
     mass = np.abs(forms.mass)
     model_errors = model_errors_of(beam, chain, omega2, forms)
     size = cancelling(forms.size, mass, omega2)

@@ -6,14 +6,15 @@ positive. Between nodes displacements are cubics first, and exact states where t
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .arrays import Array, Integers
 from .chain import Chain
 from .laws import Columns, Units
-from .shapes import Energies, energies_between, mode_energies, propagate
+from .shapes import Energies, energies_between, mode_energies, mode_states, propagate
 
 _PEAKS = 4  # of a mode whose height is computed: the cubics tell them apart
 _NEAR = 1e-7  # share of a segment, the square of which no height shows
@@ -75,6 +76,40 @@ def normalise(
     states = states * scale[:, None]
     at_places = states_at(chain, states, omega2, wanted.places)
     return Normalised(states, at_places.swapaxes(0, 1), _forms(chain, energies, wanted, scale))
+
+
+def normal_modes(
+    chain: Chain,
+    omega2: Array,
+    motions: Array,
+    wanted: Wanted,
+    states_of: Callable[..., Array] = mode_states,
+    scaled: Callable[..., Any] = normalise,
+) -> Any:
+    """Return modes that are apart, with states that are known or solved, scaled as asked.
+
+    Parameters
+    ----------
+    omega2 : array, shape (k,)
+        Real; chains whose ends follow have left eigenvectors too, see `normalise`.
+    motions : array, shape (k, 2)
+        Rigid modes at omega^2 = 0 move as a + b x, x from the left end: a and b; NaN for others.
+    states_of, scaled : callable
+        `mode_states` and `normalise`, of a backend.
+
+    Returns
+    -------
+    Normalised
+    """
+    free = np.isnan(motions[:, 0])
+    states = np.zeros((len(chain.length) + 1, len(omega2), chain.law.size))
+    a, b = motions.T
+    states[..., 0] = a + b * chain.nodes[:, None]
+    if chain.law.size > 2:
+        states[..., 1] = b
+    if free.any():
+        states[:, free] = states_of(chain, omega2[free], np.ones(free.sum(), np.int64))
+    return scaled(chain, states, omega2, wanted)
 
 
 def _forms(chain: Chain, energies: Energies, wanted: Wanted, scale: Array) -> Forms:

@@ -6,7 +6,7 @@ from .arrays import Array
 from .chain import Chain, evaluate
 from .chains import BeamRoots, ChainRoots, Chains, Tables
 from .forced import DrivenChain
-from .normalised import normalise
+from .normalised import normal_modes, normalise
 from .reasons import BY_ITSELF
 from .roots import FollowingRoots, find_eigenvalues
 from .shapes import cut, mode_energies, mode_states
@@ -21,6 +21,7 @@ __all__ = [
     "mode_energies",
     "mode_states",
     "name",
+    "normal_modes",
     "normalise",
     "solve_beam",
     "solve_chains",

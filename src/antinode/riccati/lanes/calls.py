@@ -11,21 +11,21 @@ import numpy as np
 import numpy.typing as npt
 
 from antinode.riccati.arrays import Array
-from antinode.riccati.chain import Chain, Evaluation, omega2_scale
+from antinode.riccati.chain import Chain, Evaluation
 from antinode.riccati.chain import evaluate as evaluate_readable
 from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
 from antinode.riccati.laws import BENDING
 from antinode.riccati.reasons import CERTIFIED, CHAIN_TOO_SMALL, TABLE_TOO_SMALL
-from antinode.riccati.roots import Eigenvalue, FollowingRoots, check_certificate
+from antinode.riccati.roots import Eigenvalue, FollowingRoots
 from antinode.riccati.roots import find_eigenvalues as find_readable
 
 from . import single
 from .forced.states import DrivenChain
 from .laws import FORMS
 from .library import library
-from .modal.states import cut, mode_energies, mode_states, normalise
+from .modal.states import cut, mode_energies, mode_states, normal_modes, normalise
 from .scratch import Need, new_table, scratch
-from .single import Found, SingleChain, more_columns
+from .single import SingleChain, more_columns
 from .structures import Kept
 from .workspace import NO_POINTS, POINT, ROWS, Interior, Nodes, Task, Warmth, new_chain
 from .workspace import Chain as Own
@@ -40,6 +40,7 @@ __all__ = [
     "mode_energies",
     "mode_states",
     "name",
+    "normal_modes",
     "normalise",
     "solve_beam",
     "solve_chains",
@@ -48,10 +49,6 @@ __all__ = [
 name = "numba"
 driven = DrivenChain
 
-PARTED = 1e-7
-"""Relative distance of roots below which frames part them, and their shapes."""
-
-_FLOORS = np.concatenate([-(10.0 ** np.arange(-16, -12)), 10.0 ** np.arange(-16, -12)])
 _MANY = 64  # chains of a batch from which integrals over shapes are worth their time
 _GUESSED = 1e-8  # relative width of brackets of the chain in the middle of a batch
 _NO_MORE = np.empty((1, 0))
@@ -311,9 +308,10 @@ def find_eigenvalues(
 
     Where determinants do not do - some supports, modes that nearly coincide - that function does.
     """
-    found = _by_determinants(chain, wanted, zeros, width) if _is_known(chain) else None
-    if found is not None and check_certificate(found):
-        return found
+    if _is_known(chain) and not chain.follows:
+        found = SingleChain(chain).lowest(wanted, zeros, width)
+        if found:
+            return found
     return find_readable(chain, wanted, zeros=zeros, width=width, expected=expected)
 
 
@@ -325,51 +323,3 @@ def find_following(
         return None
     asked = below, wanted
     return single.find_following(chain, *asked, zeros=zeros, free=free, width=width)
-
-
-def _by_determinants(
-    chain: Chain, wanted: int, zeros: int, width: float
-) -> list[Eigenvalue] | None:
-    """Return the lowest eigenvalues of a chain by the compiled search; None where it fails."""
-    ready = SingleChain(chain)
-    floor = _floor(ready, omega2_scale(chain), zeros)
-    if floor is None:
-        return None
-    distance, negative = floor
-    found: list[Eigenvalue] = []
-    parts = [(0, negative), (negative + zeros, max(wanted - negative - zeros, 0))]
-    for below, number in parts:
-        if below and zeros:
-            counts = (negative, below)
-            found += [Eigenvalue(k + 1, 0.0, (-distance, distance), counts) for k in range(*counts)]
-        if number:
-            roots = ready.roots(below, number, width)
-            if roots.reason != CERTIFIED or _nearly_coincide(roots.omega2):
-                return None
-            found += _listed(roots, below)
-    return found
-
-
-def _nearly_coincide(omega2: Array) -> bool:
-    after = omega2[1:]
-    return bool((after - omega2[:-1] <= PARTED * np.abs(after)).any())
-
-
-def _floor(ready: SingleChain, scale: float, zeros: int) -> tuple[float, int] | None:
-    """Return the least distance from zero at which the counts make sense, and the lower count."""
-    places = scale * _FLOORS
-    count = ready(places).below.tolist()
-    if not zeros:
-        return (0.0, count[4]) if count[0] == count[4] else None
-    for floor, low, high in zip(places[4:].tolist(), count[:4], count[4:], strict=True):
-        if high - low >= zeros:
-            return (floor, low) if high - low == zeros else None
-    return None
-
-
-def _listed(roots: Found, below: int) -> list[Eigenvalue]:
-    columns = (values.tolist() for values in roots[1:5])
-    return [
-        Eigenvalue(below + k + 1, omega2, (low, high), (counts[0], counts[1]))
-        for k, (omega2, low, high, counts) in enumerate(zip(*columns, strict=True))
-    ]

@@ -11,7 +11,7 @@ import numpy as np
 
 from antinode.riccati.chains import ChainRoots
 
-from . import following, laws, levels, rows, search
+from . import following, laws, levels, lowest, rows, search
 from .forced import sweep
 from .forced.layout import Driven, Ends
 from .forced.layout import new_room as new_forced_room
@@ -41,6 +41,7 @@ _chain, _lanes, _search = new_chain(1, 1, 1, 1), Kept(new_lanes()), Kept(new_sea
 _kept_chain = Kept(_chain)
 _task, _warmth = Task(1, 1.0, True), Warmth(_i1, _f1, _f1, _f3, _f2)
 _interior = Interior(1, 1, 1.0, 1.0, 1.0, True, 1.0, 1.0, 1)
+_asked = Asked(_f2, _f1, True)
 _room, _rules = Kept(new_room(1)), Rules(_f1, _i1, _f2, _f2)
 _found = ChainRoots.empty(1, 1)
 _driven = Driven(_i2, _f2, _i1, _f2, _f2, _f2, _f3, _f1, 1.0)
@@ -55,6 +56,10 @@ ENTRIES: dict[str, Entries] = {
         "find_roots": (
             following.find_all,
             (_chain, _task, _b, _f, new_roots(1), _f2, _lanes, _search),
+        ),
+        "find_lowest": (
+            lowest.find_lowest,
+            (_chain, _i, _i, _f, _f, new_roots(1), _f2, _lanes, _search),
         ),
         "solve_rows": (
             rows.solve_rows,
@@ -79,7 +84,11 @@ ENTRIES: dict[str, Entries] = {
         "squares": (integrals.integrate, (_chain, _f1, _f3, _rules, _f, _room)),
         "normalise": (
             integrals.normalise,
-            (_chain, _f1, _f3, _f4, Asked(_f2, _f1, True), _rules, _f, _room, _f2, _f3),
+            (_chain, _f1, _f3, _f4, _asked, _rules, _f, _room, _f2, _f3),
+        ),
+        "modes": (
+            integrals.solve_modes,
+            (_chain, _f1, _f2, _f4, _asked, _rules, _f, _room, _f3, _f2, _f3),
         ),
     },
     "forced": {

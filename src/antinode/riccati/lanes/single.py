@@ -14,7 +14,7 @@ import numpy as np
 
 from antinode.riccati.arrays import Array, Integers
 from antinode.riccati.chain import Chain, Evaluation, omega2_scale
-from antinode.riccati.reasons import CERTIFIED, TABLE_TOO_SMALL
+from antinode.riccati.reasons import CERTIFIED, CHAIN_TOO_SMALL, TABLE_TOO_SMALL
 from antinode.riccati.roots import Certificate, Eigenvalue, FollowingRoots
 
 from .laws import FORMS
@@ -158,6 +158,44 @@ class SingleChain:
         line, margin, samples = search.structure.proof.tolist()
         proof = self.unit * line, margin, int(samples)
         return Found(reason, omega2, low, high, found.counts, rounding, total, *proof)
+
+    def lowest(self, wanted: int, zeros: int, width: float) -> list[Eigenvalue] | None:
+        """Return the lowest eigenvalues, and every other one below or at zero, certified.
+
+        None where determinants do not tell them apart.
+
+        Parameters
+        ----------
+        wanted : int
+            How many from the lowest at the least.
+        zeros : int
+            How many are exactly zero.
+        width : float
+            Relative width of the brackets in omega^2.
+        """
+        number, columns = wanted, len(self.chain.length) + 8
+        while True:
+            found, search = new_roots(number), scratch.search(number)
+            reason, total, _ = library("roots").call(
+                "find_lowest",
+                *(self.chain, zeros, wanted, width, self.unit, found),
+                *(scratch.table(columns), scratch.lanes, search),
+            )
+            if reason == TABLE_TOO_SMALL:
+                columns = total
+            elif reason == CHAIN_TOO_SMALL:
+                number = total
+            else:
+                break
+        if reason != CERTIFIED:
+            return None
+        omega2, low, high, counts = (
+            values.tolist() for values in (found.omega2, found.low, found.high, found.counts)
+        )
+        return [
+            Eigenvalue(k + 1, omega2[k], (low[k], high[k]), (counts[k][0], counts[k][1]))
+            for k in range(total)
+        ]
 
 
 # --- where end forces follow ----------------------------------------------------------------------

@@ -319,27 +319,47 @@ def _aligned(*shape: int) -> Array:
     return room[start : start + size].reshape(shape)
 
 
+def _side_by_side(**shapes: tuple[int, ...]) -> dict[str, Array]:
+    """Return arrays of these shapes in one block, each aligned; nothing is set in them.
+
+    A single block is given back, and had again, as a whole: pages of many that are given back one
+    by one are new every time.
+    """
+    sizes = {name: -(-math.prod(shape) // LANES) * LANES for name, shape in shapes.items()}
+    room = np.empty(sum(sizes.values()) + LANES)
+    start, arrays = -room.ctypes.data // 8 % LANES, dict[str, Array]()
+    for name, shape in shapes.items():
+        arrays[name] = room[start : start + math.prod(shape)].reshape(shape)
+        start += sizes[name]
+    return arrays
+
+
 def new_room(segments: int) -> Room:
-    """Return room for shapes along so many segments."""
+    """Return room for shapes along so many segments.
+
+    States and squares stand where the transfer matrices did: these are needed before alone.
+    """
     n, nodes = segments, segments + 1
-    return Room(
-        own=Scaled(_aligned(n), _aligned(n), _aligned(n, COLUMNS)),
-        U=_aligned(n, ENTRIES),
-        left=_aligned(nodes, 2, STATES),
-        right=_aligned(nodes, 2, STATES),
-        back_left=_aligned(nodes, BACK),
-        back_right=_aligned(nodes, BACK),
-        z=_aligned(nodes, STATES),
-        squares=_aligned(n, SQUARES),
-        here=_aligned(STATES),
-        there=_aligned(STATES),
-        step=_aligned(ENTRIES),
-        frame=_aligned(2, STATES),
-        work=_aligned(WORK),
-        peaks=_aligned(LANES, 4, 3),
-        largest=_aligned(LANES),
-        factor=_aligned(LANES),
+    of_chain = _side_by_side(stiffness=(n,), coupling=(n,), columns=(n, COLUMNS))
+    arrays = _side_by_side(
+        U=(n, ENTRIES),
+        left=(nodes, 2, STATES),
+        right=(nodes, 2, STATES),
+        back_left=(nodes, BACK),
+        back_right=(nodes, BACK),
+        here=(STATES,),
+        there=(STATES,),
+        step=(ENTRIES,),
+        frame=(2, STATES),
+        work=(WORK,),
+        peaks=(LANES, 4, 3),
+        largest=(LANES,),
+        factor=(LANES,),
     )
+    later = arrays["U"].ravel()
+    z = later[: nodes * STATES].reshape(nodes, STATES)
+    squares = later[: n * SQUARES].reshape(n, SQUARES)
+    return Room(own=Scaled(**of_chain), z=z, squares=squares, **arrays)
 
 
 def new_lanes() -> Lanes:

@@ -32,6 +32,7 @@ from antinode.riccati.lanes.workspace import (
 )
 
 from .segments import longest_phase, scale_columns, set_units, step, terms_for, transfer
+from .shapes import set_states
 
 _MASS, _STIFFNESS, _SIZE, _ROTARY, _SOFT, _STRAIN = range(6)
 _GIVEN, _WORK, _REACH, _SUMMED = 6, 6, 7, 8
@@ -387,3 +388,44 @@ def normalise(chain, omega2, states, pair, asked, rules, longest, room, sums, gr
                 state[row] *= factor
     _give(chain.length, states, asked.places, terms, room, grid)
     return True
+
+
+@compiled
+def _set_motions(length, motion, states):
+    """Set the states of modes that move as a + b x, x from the left end: a and b, or NaN."""
+    for lane in range(len(motion)):
+        a, b, x = motion[lane, 0], motion[lane, 1], 0.0
+        if a != a:
+            continue
+        for i in range(len(states)):
+            state = states[i, lane]
+            state[0], state[1], state[2], state[3] = a + b * x, b, 0.0, 0.0
+            if i < len(length):
+                x += length[i]
+
+
+@compiled
+def _is_finite(states):
+    """Tell whether all states are numbers."""
+    total = 0.0
+    for i in range(len(states)):
+        for lane in range(states.shape[1]):
+            for row in range(4):
+                total += 0.0 * states[i, lane, row]
+    return total == 0.0
+
+
+@compiled
+def solve_modes(
+    chain, omega2, motion, no_pair, asked, rules, longest, room, states, sums, grid
+):
+    """Set the states of modes that are apart, and scale them: `set_states` and `normalise`.
+
+    Those whose motion is given are not solved. Tells whether that could be done.
+    """
+    if not set_states(chain, omega2, False, longest, room, states):
+        return False
+    _set_motions(chain.length, motion, states)
+    if not _is_finite(states):
+        return False
+    return normalise(chain, omega2, states, no_pair, asked, rules, longest, room, sums, grid)

@@ -33,7 +33,7 @@ def mode_states(
     Supports between the ends, clusters, modes that flutter and longitudinal ones are left to the
     readable form.
     """
-    if not (np.iscomplexobj(omega2) or _is_special(chain, multiplicity)):
+    if not (np.iscomplexobj(omega2) or _is_special(chain) or int(multiplicity.max()) > 1):
         found = _states(chain, omega2, adjoint)
         if found is not None:
             return found
@@ -44,9 +44,10 @@ def mode_states(
     return shapes.mode_states(chain, omega2, multiplicity, adjoint=adjoint)
 
 
-def _is_special(chain: Chain, multiplicity: Integers) -> bool:
+def _is_special(chain: Chain) -> bool:
+    """Tell whether a chain is of another law, or has points that are left to the readable form."""
     held = any(p.holds or p.feeds_back or _is_heavy(p, chain) for p in chain.points)
-    return not _is_known(chain) or held or int(multiplicity.max()) > 1
+    return held or not _is_known(chain)
 
 
 def _is_heavy(point: Point, chain: Chain) -> bool:
@@ -150,9 +151,49 @@ def normalise(
         if not done[0]:
             return normalised.normalise(chain, states, omega2, wanted, left)
         parts.append((these, at_places, sums))
+    return _together(parts)
+
+
+def normal_modes(chain: Chain, omega2: Array, motions: Array, wanted: Wanted) -> Normalised:
+    """Return modes that are apart, scaled as asked: `riccati.normalised.normal_modes`, compiled."""
+    found = None
+    if not _is_special(chain) and len(chain.length) <= _MOST_NODES:
+        found = _normal_modes(chain, omega2, motions, wanted)
+    if found is not None:
+        return found
+    asked = chain, omega2, motions, wanted
+    found = normalised.normal_modes(*asked, mode_states, normalise)
+    return found
+
+
+def _normal_modes(
+    chain: Chain, omega2: Array, motions: Array, wanted: Wanted
+) -> Normalised | None:
+    """Return the modes in one call for every eight; None where that is left to others."""
+    own, parts = in_si(chain), []
+    room = scratch.room(len(chain.length))
+    asked = Asked(wanted.beside, wanted.places, wanted.by_mass)
+    for i in range(0, len(omega2), LANES):
+        some = omega2[i : i + LANES]
+        states = np.empty((len(chain.length) + 1, len(some), 4))
+        sums = np.empty((len(Forms._fields), len(some)))
+        at_places = np.empty((len(some), len(wanted.places), 4))
+        done = library("shapes").call(
+            "modes",
+            *(own, some, motions[i : i + LANES], _NO_PAIR, asked, _RULES, LONGEST_STEP),
+            *(room, states, sums, at_places),
+        )
+        if not done[0]:
+            return None
+        parts.append((states, at_places, sums))
+    return _together(parts)
+
+
+def _together(parts: list[tuple[Array, Array, Array]]) -> Normalised:
+    """Return states, those at places, and forms of all modes, from those of eight each."""
     if len(parts) == 1:
-        these, at_places, sums = parts[0]
-        return Normalised(these, at_places, Forms(*sums))
+        states, at_places, sums = parts[0]
+        return Normalised(states, at_places, Forms(*sums))
     all_states, all_places, all_sums = zip(*parts, strict=True)
     return Normalised(
         np.concatenate(all_states, axis=1),
