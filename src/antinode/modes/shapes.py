@@ -47,10 +47,10 @@ def normalised_modes(
     wanted: Wanted,
 ) -> tuple[Array, Normalised]:
     """Return omega^2 and the kept modes, scaled as asked; rigid ones at omega^2 = 0 are known."""
-    values = [eigenvalues[k].value for k in keep]
-    omega2 = np.array(values)
+    omega2 = np.array([eigenvalues[k].value for k in keep])
     still = [c for c, k in enumerate(keep) if eigenvalues[k].omega2 == 0.0 and names[k][1] == 0]
-    if not chain.follows and are_apart([v for c, v in enumerate(values) if c not in still]):
+    solved = [eigenvalues[k].omega2 for c, k in enumerate(keep) if c not in still]
+    if not chain.follows and are_apart(solved):
         motions = np.full((len(keep), 2), np.nan)
         for c in still:
             motions[c] = rigid_motion(beam, chain, names[keep[c]][0])

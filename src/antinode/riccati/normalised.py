@@ -7,7 +7,7 @@ positive. Between nodes displacements are cubics first, and exact states where t
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -84,8 +84,8 @@ def normal_modes(
     motions: Array,
     wanted: Wanted,
     states_of: Callable[..., Array] = mode_states,
-    scaled: Callable[..., Any] = normalise,
-) -> Any:
+    scaled: Callable[..., Normalised] = normalise,
+) -> Normalised:
     """Return modes that are apart, with states that are known or solved, scaled as asked.
 
     Parameters

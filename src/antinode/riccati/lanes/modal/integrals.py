@@ -416,9 +416,7 @@ def _is_finite(states):
 
 
 @compiled
-def solve_modes(
-    chain, omega2, motion, no_pair, asked, rules, longest, room, states, sums, grid
-):
+def solve_modes(chain, omega2, motion, no_pair, asked, rules, longest, room, states, sums, grid):
     """Set the states of modes that are apart, and scale them: `set_states` and `normalise`.
 
     Those whose motion is given are not solved. Tells whether that could be done.

@@ -161,14 +161,10 @@ def normal_modes(chain: Chain, omega2: Array, motions: Array, wanted: Wanted) ->
         found = _normal_modes(chain, omega2, motions, wanted)
     if found is not None:
         return found
-    asked = chain, omega2, motions, wanted
-    found = normalised.normal_modes(*asked, mode_states, normalise)
-    return found
+    return normalised.normal_modes(chain, omega2, motions, wanted, mode_states, normalise)
 
 
-def _normal_modes(
-    chain: Chain, omega2: Array, motions: Array, wanted: Wanted
-) -> Normalised | None:
+def _normal_modes(chain: Chain, omega2: Array, motions: Array, wanted: Wanted) -> Normalised | None:
     """Return the modes in one call for every eight; None where that is left to others."""
     own, parts = in_si(chain), []
     room = scratch.room(len(chain.length))
