@@ -147,8 +147,12 @@ def _over(beam: Beam, name: str, interval: Integers | slice, start: Array, size:
     return np.stack(list(sides), axis=-1)
 
 
-def coarsest_steps(beam: Beam, family: FamilyName) -> tuple[Integers, Array, Array]:
+def coarsest_steps(
+    beam: Beam, family: FamilyName, longest: float = _LONGEST
+) -> tuple[Integers, Array, Array]:
     """Divide intervals in which something varies until no step is long or steep.
+
+    `longest` is the share of one step in the waves along the beam, at most.
 
     Returns
     -------
@@ -165,7 +169,7 @@ def coarsest_steps(beam: Beam, family: FamilyName) -> tuple[Integers, Array, Arr
         steepest = np.max([_ratio(np.min(p, axis=-1), np.max(p, axis=-1)) for p in parts], axis=0)
         mass, stiffness = (np.sqrt(p[:, 0] * p[:, -1]) for p in parts[:2])
         phase = (mass / stiffness) ** (1 / power) * np.diff(beam.x)[interval] * size
-        coarse = (steepest > _STEEPEST) | (phase > _LONGEST * np.sum(phase))
+        coarse = (steepest > _STEEPEST) | (phase > longest * np.sum(phase))
         pieces = np.where(coarse & varies[interval], 2, 1)
         if np.all(pieces == 1):
             break

@@ -64,8 +64,13 @@ class Backend(Protocol):
         """Return the lowest eigenvalues where ends follow, proven; None if it does not prove."""
         ...
 
-    def solve_chains(self, chains: Chains, below: int, number: int, width: float, /) -> ChainRoots:
-        """Solve chain after chain for eigenvalues below + 1 ... below + number."""
+    def solve_chains(
+        self, chains: Chains, below: int, number: int, width: float, /, *, proven: bool = True
+    ) -> ChainRoots:
+        """Solve chain after chain for eigenvalues below + 1 ... below + number.
+
+        Those that are not `proven` are enclosed, and predicted to a tenth of the width.
+        """
         ...
 
     def certify_guesses(

@@ -31,7 +31,9 @@ name = "numpy"
 driven = DrivenChain
 
 
-def solve_chains(chains: Chains, below: int, number: int, width: float) -> ChainRoots:
+def solve_chains(
+    chains: Chains, below: int, number: int, width: float, *, proven: bool = True
+) -> ChainRoots:
     """Leave every chain to be solved by itself: there is nothing to gain from neighbours here."""
     return ChainRoots.empty(len(chains), number, BY_ITSELF)
 

@@ -29,6 +29,7 @@ from .many_loads import ManyLoads
 from .theory import Sheared, sheared
 
 _TOGETHER = 512  # cases whose arrays stay near the processor
+_LONGEST = 1 / 20  # share of a step in the waves along the body: a few long cells made most errors
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,17 @@ class Chains:
     def rigid(self) -> Chains:
         """The same without shear and rotary inertia: Euler-Bernoulli's."""
         return replace(self, more={})
+
+    def some(self, which: Integers) -> Chains:
+        """Return some of them."""
+
+        def part(values: Array) -> Array:
+            return values if len(values) == 1 < len(self.rows) else values[which]
+
+        more = {name: part(v) for name, v in self.more.items()}
+        h, m, EI, N = map(part, (self.length, self.mass, self.stiffness, self.axial_force))
+        following = None if self.following is None else self.following[which]
+        return Chains(self.rows[which], h, m, EI, N, more, following)
 
 
 class Values(NamedTuple):
@@ -124,7 +136,7 @@ class ManyBeams:
             axial_acceleration=1.0,
             interpolation=masses.interpolation,
         )
-        interval, start, _ = coarsest_steps(beam, BENDING)
+        interval, start, _ = coarsest_steps(beam, BENDING, _LONGEST)
         x = masses.x[interval] + start * np.diff(masses.x)[interval]
         return np.unique(np.append(x, masses.x[-1]))
 

@@ -85,7 +85,9 @@ def _needs_frames(chain: Chain) -> bool:
     return any(point.holds and point.node not in known for point in chain.points)
 
 
-def solve_chains(chains: Chains, below: int, number: int, width: float) -> ChainRoots:
+def solve_chains(
+    chains: Chains, below: int, number: int, width: float, *, proven: bool = True
+) -> ChainRoots:
     """Solve chain after chain, each from the roots of the one before.
 
     The table is new in every call: its size decides where a row starts afresh, and a result must
@@ -100,6 +102,8 @@ def solve_chains(chains: Chains, below: int, number: int, width: float) -> Chain
         Of eigenvalues wanted.
     width : float
         Relative width of the brackets in omega^2.
+    proven : bool
+        Or else every eigenvalue is only enclosed, and predicted to a tenth of the width.
     """
     given, ends, n = _whole(chains), _ends(chains), chains.length.shape[1]
     own, found = _own(chains), ChainRoots.empty(len(chains), number)
@@ -110,7 +114,7 @@ def solve_chains(chains: Chains, below: int, number: int, width: float) -> Chain
         weights=_weights(chains, below, number),
         quotient=np.zeros((2, number)),
     )
-    task, search, row = Task(below, width, True), scratch.search(number), 0
+    task, search, row = Task(below, width, proven), scratch.search(number), 0
     table = np.empty((ROWS, n + n // 2 + 8))
     while row < len(chains):
         row, columns, _ = library("roots").call(

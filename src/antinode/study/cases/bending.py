@@ -1,11 +1,12 @@
 """Bending frequencies of the cases of a chunk, refined until their estimated error is small enough.
 
-The error by what varies inside segments is judged on every 32nd case, by the one rule on levels of
-halved steps; all chains are refined until it is within the tolerance.
+The error by what varies inside segments is judged on every 32nd case, or on 64 of more than 2,048,
+by the one rule on levels of halved steps; all chains are refined until it is within the tolerance.
 """
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +17,7 @@ from antinode.arrays import Array, Integers
 from antinode.beam.ends import FREE
 from antinode.beam.families import BENDING, FAMILIES
 from antinode.modes.backends import choose
-from antinode.modes.batch import NARROW, BeamBatch, solve_many
+from antinode.modes.batch import NARROW, BeamBatch, predict_many, solve_many
 from antinode.modes.following import eigenvalues_alone
 from antinode.modes.hertz import growth_rate, settled
 from antinode.modes.rigid import rigid_modes_of, zeros_of
@@ -33,9 +34,10 @@ from .reasons import PAST_BUCKLING, failed
 
 IN_BATCHES = (BENDING,)
 """Families whose cases are solved together."""
-_SAMPLE = 32
+_SAMPLE, _ENOUGH = 32, 64  # one case in so many, but for more of them no more than these
 _WIDEST = 1e-8  # of brackets, relative to omega^2
-_FOR_EFFECT = 1e-6  # of those that a frequency is only compared with
+_FOR_EFFECT = 1e-7  # of those that a frequency is only compared with
+_ALIKE = 0.05  # largest distance of effects from those of most cases, up to which no root is missed
 _OF_TOLERANCE = 1e-2  # a bracket's part in what is allowed
 _SAFETY = 2.5  # for cases that are not in the sample
 _NEAR_BUCKLING = 1e-7  # share of the highest omega^2 below which the first may be a rigid one
@@ -110,8 +112,7 @@ def solve_bending(study: Study, beams: CaseBeams, points: int) -> Eigenvalues:
         out.growth_rate_per_s[at] = np.where(out.omega2[at] == 0, np.nan, growth)
         out.reason[at[(out.reason[at] == PAST_BUCKLING) & (out.omega2[at, 0] >= 0)]] = 0
         if chains.more and "effect_of_shear" in study.outputs:
-            rigid, *_ = solve_free(chains.rigid, study.solve.modes, _FOR_EFFECT)
-            out.effect_of_shear[at] = effect_of_shear(omega2, rigid)
+            out.effect_of_shear[at] = _solved_effect(chains.rigid, omega2)
         if points:
             real = np.where(omega2 > 0, omega2 - np.nan_to_num(growth) ** 2, omega2)
             out.shapes[at] = _shapes(chains, real, out.reason[at], x)
@@ -146,7 +147,8 @@ def _refine(study: Study, beams: CaseBeams, rows: Integers, weight: Array) -> tu
     Levels of the sample are judged by the one rule; the coarsest whose own values are near enough
     is taken. The cases that are not in the sample have a margin.
     """
-    sample, modes = rows[:: max(1, min(_SAMPLE, len(rows) // 8))], study.solve.modes
+    step = max(1, min(_SAMPLE, len(rows) // 8), len(rows) // _ENOUGH)
+    sample, modes = rows[::step], study.solve.modes
     levels: list[Array] = []
     while True:
         groups = beams.chains(sample, 2 ** len(levels))
@@ -193,10 +195,7 @@ def solve_free(
 
     Of a pair that flutters omega^2 is the square of its frequency.
     """
-    tables = chains.length, chains.mass, chains.stiffness, chains.axial_force
-    more: dict[str, Any] = sheared_columns(chains.more)
-    batch = BeamBatch(*tables, modes=modes, following=chains.following, **more)
-    result = solve_many(batch, width=width)
+    result = solve_many(_batch(chains, modes), width=width)
     omega2, error, reason = result.omega2, result.error_omega2, result.reason
     growth = result.growth_rate_per_s
     buckled = ~(omega2[:, 0] > _NEAR_BUCKLING * omega2[:, -1])
@@ -207,6 +206,30 @@ def solve_free(
             reason[i] = PAST_BUCKLING if omega2[i, 0] < 0 else 0
             growth[i] = growth_rate(omega2[i])
     return omega2, error, reason, growth
+
+
+def _batch(chains: Chains, modes: int) -> BeamBatch:
+    tables = chains.length, chains.mass, chains.stiffness, chains.axial_force
+    more: dict[str, Any] = sheared_columns(chains.more)
+    return BeamBatch(*tables, modes=modes, following=chains.following, **more)
+
+
+def _solved_effect(rigid: Chains, omega2: Array) -> Array:
+    """Return what shear does to frequencies, from chains without it.
+
+    Their frequencies are predicted. Where one is not, or the effect is not that of most cases, as
+    where a root was missed, they are solved with certificates.
+    """
+    modes = omega2.shape[1]
+    effect = effect_of_shear(omega2, predict_many(_batch(rigid, modes), _FOR_EFFECT))
+    with np.errstate(all="ignore"), warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        far = np.abs(effect - np.nanmedian(effect, axis=0))
+    doubtful = np.flatnonzero(~np.all(far < _ALIKE, axis=1))
+    if len(doubtful):
+        again, *_ = solve_free(rigid.some(doubtful), modes, _FOR_EFFECT)
+        effect[doubtful] = effect_of_shear(omega2[doubtful], again)
+    return effect
 
 
 def net_force(chains: Chains) -> Array:
