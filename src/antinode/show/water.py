@@ -17,10 +17,7 @@ from antinode.modes.solve import solve_modes
 from antinode.response.units import STANDARD_GRAVITY
 from antinode.vehicle.case import Case, vehicle_beam
 from antinode.vehicle.hydrodynamics.added_mass import AddedMass
-from antinode.vehicle.tangent import Tangent
-
-QUASI_STEADY = 0.3
-"""f L/V up to which the water follows the motion without much delay [-]."""
+from antinode.vehicle.tangent import QUASI_STEADY, Tangent
 
 
 def reduced_frequency(mode: Mode, case: Case) -> float:

@@ -130,6 +130,11 @@ class Model(Frozen):
         return nose, tail
 
     @property
+    def water_answers(self) -> bool:
+        """Whether the water's stiffness answers the body's motion: modes are complex then."""
+        return self.hydrodynamic_stiffness != "none"
+
+    @property
     def is_theory_stated(self) -> bool:
         """Whether the theory of the beam was named."""
         return "theory" in self.model_fields_set

@@ -33,6 +33,9 @@ from .hydrodynamics.planing import planing_state
 from .loads import Loads
 from .numbers import ManyCases
 
+QUASI_STEADY = 0.3
+"""f L/V up to which the water follows the motion without much delay [-]."""
+
 _STEP = 1e-4  # of the body's radius, and in radians: truncation and rounding both below 1e-9
 _STEPS = np.array([1.0, -1.0, 0.5, -0.5])
 

@@ -81,11 +81,30 @@ def test_two_words_on_the_disk_are_refused(folder, share):
     refused(ended, "takes the place of that share")
 
 
-def test_studies_say_that_they_do_not_solve_it(folder):
+@pytest.fixture(scope="module")
+def wet(folder):
+    """The example of a sweep, its case on the water's stiffness."""
     text = (folder / "case.toml").read_text(encoding="utf-8")
     changed = text.replace("[model]", '[model]\nhydrodynamic_stiffness = "tangent"')
     (folder / "wet").mkdir()
     for name in ("stations.csv", "study.toml"):
         (folder / "wet" / name).write_bytes((folder / name).read_bytes())
     (folder / "wet" / "case.toml").write_text(changed, encoding="utf-8")
-    refused(run("sweep", folder / "wet" / "study.toml"), "hydrodynamic_stiffness")
+    return folder / "wet"
+
+
+def test_a_study_tells_what_limits_its_numbers(wet):
+    one = 'inputs=[{key="condition.speed", values=[80]}]'
+    ended = run("sweep", wet / "study.toml", "--set", one, "--set", "solve.modes=2")
+    assert ended.code == 0, ended
+    assert "1 of 1 case solved" in ended.out
+    assert "touches on one side" in ended.out
+    assert "a mode grows without oscillating" in ended.out
+    assert "Not in the model: " in ended.out
+    assert "hydrodynamic stiffness" not in ended.out
+
+
+def test_a_study_without_it_names_it_first_among_what_is_left_out(folder):
+    one = 'inputs=[{key="condition.speed", values=[80]}]'
+    ended = run("sweep", folder / "study.toml", "--set", one)
+    assert "Not in the model: hydrodynamic stiffness" in ended.out

@@ -32,7 +32,7 @@ def run_along(
     """Find changes of stability along an input, or over a second one, and tell them."""
     if along and largest is not None:
         raise InputError("--to is for the load factor; the range of --along stands with it")
-    problem = load_subject(file, assignments, real=False)
+    problem = load_subject(file, assignments)
     first = parse_line(along, "--along") if along else None
     dampers = damping != "none"
     if map:

@@ -110,8 +110,7 @@ def beam_at(problem: Problem, lines: Sequence[Line], values: Sequence[float]) ->
         If a value is outside the range that the problem allows.
     """
     variables = [line.variable for line in lines]
-    # of a case whose modes are complex there is no study, but there are beams
-    study = Study.model_construct(case=problem, inputs=tuple(v.given for v in variables))
+    study = Study(case=problem, inputs=tuple(v.given for v in variables))
     cases = Cases(study, variables, np.array([values], dtype=float))
     if cases.outside()[0] or not all(map(math.isfinite, values)):
         told = ", ".join(f"{line} = {v:g}" for line, v in zip(lines, values, strict=True))

@@ -12,6 +12,7 @@ from antinode.beam.plausible import doubts
 from antinode.modes.warnings import (
     FLUTTERS,
     FLUTTERS_DAMPED,
+    GIVES_ENERGY,
     LOWEST_DIVERGES,
     MODEL_LIMIT,
     NEUTRAL,
@@ -33,11 +34,12 @@ _UNLIKELY = (
     "which of one case"
 )
 _OTHER = "a warning of its own, with numbers of the case: 'antinode beam' says it of one case"
-_RECOGNISED = (
+RECOGNISED = (
     (f"omega^2 < 0, {PAST_BUCKLING}", f"elastic modes with omega^2 < 0: {PAST_BUCKLING}"),
     (FLUTTERS, f"some modes: {FLUTTERS}"),
     (FLUTTERS_DAMPED, f"some modes: {FLUTTERS_DAMPED}"),
     (PUSHED_ON, f"some modes: {PUSHED_ON}"),
+    (GIVES_ENERGY, f"a point feedback: {GIVES_ENERGY}"),
     (ROTATION_DIVERGES, ROTATION_DIVERGES),
     (ROTATION_NOT_TURNED_BACK, ROTATION_NOT_TURNED_BACK),
     (LOWEST_DIVERGES, LOWEST_DIVERGES),
@@ -50,7 +52,7 @@ _RECOGNISED = (
 
 def beam_messages(file: BeamFile) -> tuple[str, ...]:
     """Return what a case of a study of a beam can warn of, in the order of the bits."""
-    texts = [text for _, text in _RECOGNISED]
+    texts = [text for _, text in RECOGNISED]
     return (*texts, *left_out(file.beam()), *file.notes, _UNLIKELY, _OTHER)
 
 
@@ -76,20 +78,21 @@ def beam_warned(
         if solved.warnings is None:
             told |= set(_of_quick(beam, solved))
         else:
-            told |= {_recognised(w, texts) for w in solved.warnings if w not in unlikely}
+            told |= {recognised(w, texts) or _OTHER for w in solved.warnings if w not in unlikely}
     return sum(1 << texts.index(text) for text in told)
 
 
-def _recognised(warning: str, texts: tuple[str, ...]) -> str:
+def recognised(warning: str, texts: Sequence[str]) -> str:
+    """Return what is said of many cases for the warning of one; nothing for one of its own."""
     if warning in texts:
         return warning
-    return next((text for part, text in _RECOGNISED if part in warning), _OTHER)
+    return next((text for part, text in RECOGNISED if part in warning), "")
 
 
 def _of_quick(beam: Beam, solved: Solved) -> list[str]:
     """Return what is said of modes whose frequencies alone are known."""
     effect = np.zeros(0) if solved.model_error is None else solved.model_error
-    told = []
+    told = list[str]()
     if rotation_diverges(beam, solved.family, solved.omega2):
         told.append(rotation_warning(beam))
     with np.errstate(invalid="ignore"):
@@ -97,4 +100,4 @@ def _of_quick(beam: Beam, solved: Solved) -> list[str]:
             told.append(SHEAR_LOWERS)
         if np.any(shear_buckles(effect)):
             told.append(SHEAR_BUCKLES)
-    return [_recognised(each, ()) for each in told]
+    return [recognised(each, ()) for each in told]

@@ -47,6 +47,8 @@ class CaseBeams:
         Whether nothing varies inside the segments of any chain.
     chains : callable
         Returns the bending chains of some cases at a refinement, those of equal size together.
+    built : mapping
+        Cases and their beams, where each was built by itself.
     """
 
     reason: Integers
@@ -55,12 +57,14 @@ class CaseBeams:
     strained: npt.NDArray[np.bool_]
     exact: bool
     chains: Callable[[Integers, int], list[Chains]] = field(repr=False)
+    built: Mapping[int, tuple[Case, Beam]] = field(default_factory=dict, repr=False)
 
 
 def beams_of(cases: Cases) -> CaseBeams:
     """Return the beams of some cases."""
     reason = np.where(cases.outside(), OUT_OF_RANGE, 0)
     arrays = all(v.kind == "time" or is_vectorised(v.keys) for v in cases.variables)
+    arrays = arrays and not cases.study.vehicle_case.model.water_answers
     return _on_arrays(cases, reason) if arrays else _one_by_one(cases, reason)
 
 
@@ -92,7 +96,7 @@ def _doubts(loads: ManyLoads) -> npt.NDArray[np.bool_]:
 
 def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
     """Build every case by itself."""
-    beams: dict[int, Beam] = {}
+    built: dict[int, tuple[Case, Beam]] = {}
     scalars = {name: np.full(len(cases), np.nan) for name in LOAD_OUTPUTS}
     messages = load_messages(cases.study.vehicle_case)
     doubts = np.zeros((len(messages), len(cases)), dtype=bool)
@@ -101,21 +105,23 @@ def _one_by_one(cases: Cases, reason: Integers) -> CaseBeams:
         try:
             case = cases.case(i)
             many = case.many_loads
+            reason[i] = many.refusals.code[0]
             beam = vehicle_beam(case)
             check_limits(beam)
         except AntinodeError:
-            reason[i] = NO_BEAM
+            reason[i] = reason[i] or NO_BEAM
             continue
-        beams[i] = beam
+        built[i] = case, beam
         told = {warning.message for warning in many.warnings if warning.concerns[0]}
         doubts[:, i] = [message in told for message in messages]
         doubts[-1, i] = not told <= set(messages)
         strained[i] = largest_strain(beam)[0] > MOST_STRAIN
         for name in LOAD_OUTPUTS:
             scalars[name][i] = many.numbers[name][0]
+    beams = {i: beam for i, (_, beam) in built.items()}
     exact = not any(np.any(b.varies(BENDING)) for b in beams.values())
     chains = partial(_chains_of, beams)
-    return CaseBeams(reason, scalars, doubts, strained, exact, chains)
+    return CaseBeams(reason, scalars, doubts, strained, exact, chains, built)
 
 
 def _chains_of(beams: Mapping[int, Beam], rows: Integers, refinement: int) -> list[Chains]:

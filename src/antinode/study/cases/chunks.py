@@ -14,7 +14,6 @@ import numpy.typing as npt
 
 from antinode.arrays import Array, Integers
 from antinode.beam.file import BeamFile
-from antinode.modes.hertz import error_hz, hertz
 from antinode.study.design.file import MARGIN_OUTPUTS, Study
 from antinode.study.design.points import Points
 from antinode.vehicle.refusals import OUT_OF_RANGE
@@ -24,9 +23,11 @@ from .bending import IN_BATCHES, Eigenvalues, solve_bending
 from .bodies import solve_bodies
 from .reasons import failed
 from .shear import model_errors
-from .structures import solve_structures
+from .single import Motion
+from .structures import BeamAnswers, solve_structures
 from .values import Cases
 from .warned import type_of_bits, warned
+from .water import solve_in_water
 
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -78,6 +79,8 @@ _Solved = tuple[Integers, Integers, Array, dict[str, Array]]
 
 def _of_vehicles(cases: Cases, size: int) -> _Solved:
     beams = beams_of(cases)
+    if cases.study.vehicle_case.model.water_answers:
+        return _in_water(cases, beams, size)
     found, shear = _every_family(cases, beams, size)
     doubts = np.concatenate([cases.doubts(beams.scalars["mass"], beams.strained), beams.doubts])
     bits = warned(found, shear, doubts)
@@ -85,12 +88,22 @@ def _of_vehicles(cases: Cases, size: int) -> _Solved:
     scalars = {name: np.where(loaded, values, np.nan) for name, values in beams.scalars.items()}
     every = scalars | _of_modes(found)
     every |= {"model_error": shear, "effect_of_shear": found.effect_of_shear}
+    every["proven"] = np.where(failed(found.reason), np.nan, 1.0)
     return found.reason, bits, found.shapes, every
+
+
+def _in_water(cases: Cases, beams: CaseBeams, size: int) -> _Solved:
+    found = solve_in_water(cases, beams, size)
+    return found.reason, found.warned, found.shapes, _all_outputs(found) | dict(beams.scalars)
+
+
+def _all_outputs(found: BeamAnswers) -> dict[str, Array]:
+    return found.of_modes | {"mass": found.mass, "proven": found.proven}
 
 
 def _of_beams(cases: Cases, size: int) -> _Solved:
     found = solve_structures(cases, size)
-    return found.reason, found.warned, found.shapes, found.of_modes | {"mass": found.mass}
+    return found.reason, found.warned, found.shapes, _all_outputs(found)
 
 
 def _every_family(cases: Cases, beams: CaseBeams, points: int) -> tuple[Eigenvalues, Array]:
@@ -121,9 +134,5 @@ def _every_family(cases: Cases, beams: CaseBeams, points: int) -> tuple[Eigenval
 
 def _of_modes(found: Eigenvalues) -> dict[str, Array]:
     """Return the outputs that have one number a mode."""
-    return {
-        "omega2": found.omega2,
-        "frequency_hz": hertz(found.omega2),
-        "error_hz": error_hz(found.omega2, found.error),
-        "growth_rate_per_s": found.growth_rate_per_s,
-    }
+    motion = Motion.of_squares(found.omega2, found.error, found.growth_rate_per_s)
+    return {"omega2": found.omega2, **motion._asdict()}

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Complex
 from antinode.beam.attachments import is_damped
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES, FamilyName
@@ -15,11 +16,13 @@ from antinode.modes.backends import choose
 from antinode.modes.following import energies_of_modes
 from antinode.modes.frequencies import natural_frequencies
 from antinode.modes.hertz import error_hz, growth_rate, hertz
+from antinode.modes.result import ModalResult, Mode
 from antinode.modes.rigid import pivot_of, rigid_modes, rigid_rotation, turns_freely
 from antinode.modes.shapes import can_estimate, estimate_model_errors
 from antinode.modes.solve import solve_modes
 from antinode.riccati.roots import CountingError
 from antinode.riccati.shapes import split_for
+from antinode.study.design.file import KINDS
 from antinode.vehicle.derivatives import ChainModes
 
 from .bending import unit_shapes
@@ -36,18 +39,42 @@ class Motion(NamedTuple):
         Re s [1/s].
     damping_ratio : array
         -Re s over abs(s).
+    kind : array
+        By the numbers of `KINDS`.
     """
 
     frequency_hz: Array
     error_hz: Array
     growth_rate_per_s: Array
     damping_ratio: Array
+    kind: Array
 
     @classmethod
     def steady(cls, omega2: Array, error: Array) -> Motion:
         """Return that of modes which nothing damps."""
-        ratio = np.where(omega2 > 0, 0.0, np.where(omega2 < 0, -1.0, np.nan))
-        return cls(hertz(omega2), error_hz(omega2, error), growth_rate(omega2), ratio)
+        return cls.of_squares(omega2, error, growth_rate(omega2))
+
+    @classmethod
+    def of_squares(cls, omega2: Array, error: Array, growth: Array) -> Motion:
+        """Return that of modes by omega^2, which diverge or flutter by growth, else NaN."""
+        rate = np.nan_to_num(growth)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            size = np.where(omega2 < 0, np.abs(rate), np.hypot(rate, np.sqrt(omega2)))
+            ratio = -rate / size + 0.0
+            flutters = np.where(rate > 0, KINDS.index("flutter"), KINDS.index("elastic"))
+            kind = np.where(omega2 < 0, KINDS.index("divergent"), flutters)
+        kind = np.where(np.isfinite(omega2), kind, np.nan)
+        return cls(hertz(omega2), error_hz(omega2, error), growth, ratio, kind)
+
+    @classmethod
+    def of_modes(cls, modes: Sequence[Mode]) -> Motion:
+        """Return that of modes as they were solved."""
+        kinds = [KINDS.index(m.kind) for m in modes]
+        told = {
+            name: np.array([getattr(m, name) for m in modes], dtype=float)
+            for name in cls._fields[:-1]
+        }
+        return cls(**told, kind=np.array(kinds, dtype=float))
 
 
 class Solved(NamedTuple):
@@ -66,6 +93,10 @@ class Solved(NamedTuple):
         The same of what is warned of.
     motion : Motion or None
         What vibrates how, if that is not told by omega^2 alone.
+    proven, is_complex : bool
+        Whether all of its modes are proven to be found, and whether they are complex.
+    shapes : array or None
+        Of complex modes at the places asked for, of unit norm, (modes, places).
     """
 
     family: FamilyName
@@ -75,6 +106,9 @@ class Solved(NamedTuple):
     effect_of_shear: Array | None = None
     warnings: tuple[str, ...] | None = None
     motion: Motion | None = None
+    proven: bool = True
+    is_complex: bool = False
+    shapes: Array | None = None
 
 
 def is_quick(beam: Beam, family: FamilyName) -> bool:
@@ -84,24 +118,29 @@ def is_quick(beam: Beam, family: FamilyName) -> bool:
     return own.rotary and plain and not is_damped(beam.attachments, family)
 
 
-def solve_alone(beam: Beam, family: FamilyName, modes: int, tolerance: float) -> Solved | None:
-    """Return one family of a beam; None where it cannot be solved."""
+def solve_alone(
+    beam: Beam, family: FamilyName, modes: int, tolerance: float, x: Array | None = None
+) -> Solved | None:
+    """Return one family of a beam, complex shapes at places [m]; None where it is not solved."""
     try:
         with np.errstate(all="ignore"):
             if is_quick(beam, family):
                 quick = natural_frequencies(beam, modes, tolerance=tolerance)
                 if quick.omega2[0] > quick.error_omega2[0]:
                     return Solved(family, quick.omega2, quick.error_omega2)
-            return _by_modes(beam, family, modes, tolerance)
+            return _by_modes(beam, family, modes, tolerance, x)
     except (AntinodeError, ArithmeticError, CountingError):
         return None
 
 
-def _by_modes(beam: Beam, family: FamilyName, modes: int, tolerance: float) -> Solved | None:
+def _by_modes(
+    beam: Beam, family: FamilyName, modes: int, tolerance: float, x: Array | None
+) -> Solved | None:
     result = solve_modes(beam, modes, tolerance=tolerance, families=[family])
     own = [m for m in result.modes if m.number][:modes]
     if len(own) < modes:
         return None
+    is_complex = any(m.eigenvalue is not None for m in own)
     estimated, solved = (
         np.array([np.nan if getattr(m, name) is None else getattr(m, name) for m in own])
         for name in ("model_error", "effect_of_shear")
@@ -113,7 +152,10 @@ def _by_modes(beam: Beam, family: FamilyName, modes: int, tolerance: float) -> S
         estimated,
         solved,
         result.warnings,
-        Motion(*(np.array([getattr(m, n) for m in own], dtype=float) for n in Motion._fields)),
+        Motion.of_modes(own),
+        result.certificate.get("kind") != "none",
+        is_complex,
+        None if x is None or not is_complex else _complex_shapes(result, family, modes, x),
     )
 
 
@@ -131,6 +173,18 @@ def model_error(beam: Beam, family: FamilyName, omega2: Array) -> Array:
     except (AntinodeError, ArithmeticError, ValueError):
         effect = [None] * len(omega2)
     return np.array([np.nan if e is None else e for e in effect])
+
+
+def _complex_shapes(result: ModalResult, family: FamilyName, modes: int, x: Array) -> Array:
+    rows = [k for k, mode in enumerate(result.family(family)) if mode.number][:modes]
+    at = result.solutions[family].at(x - result.beam.x[0])[:, rows, 0]
+    return unit_shapes(in_phase(np.asarray(at, dtype=complex)))
+
+
+def in_phase(displacement: Complex) -> Array:
+    """Return complex shapes (points, modes) at the phase at which most of them moves."""
+    square = np.sum(displacement**2, axis=0)
+    return np.asarray((displacement * np.exp(-0.5j * np.angle(square))).real)
 
 
 def shapes_of(beam: Beam, family: FamilyName, omega2: Array, x: Array) -> Array:

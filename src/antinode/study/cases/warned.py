@@ -28,6 +28,7 @@ from . import reasons
 from .beam_warnings import beam_messages
 from .beams import load_messages
 from .bending import Eigenvalues
+from .water_warnings import WATER_MESSAGES
 
 _OF_MODES = (
     f"elastic modes with omega^2 < 0: {PAST_BUCKLING}",
@@ -39,7 +40,7 @@ _OF_MODES = (
 )
 
 
-_LAST = 62
+LAST_BIT = 62
 """The highest bit; sentences beyond it share it (of a vehicle with some fifty sets of fins)."""
 
 
@@ -65,7 +66,7 @@ def messages(study: Study) -> tuple[str, ...]:
     texts = case_messages(study)
     if study.response is not None:
         texts = (*texts, *(text for _, text in RESPONSE_MESSAGES))
-    return (*texts[:_LAST], "; or ".join(texts[_LAST:])) if len(texts) > _LAST else texts
+    return (*texts[:LAST_BIT], "; or ".join(texts[LAST_BIT:])) if len(texts) > LAST_BIT else texts
 
 
 def response_bits(study: Study, warnings: Iterable[str | None]) -> int:
@@ -77,7 +78,7 @@ def response_bits(study: Study, warnings: Iterable[str | None]) -> int:
             for k, (start, _) in enumerate(RESPONSE_MESSAGES)
             if told is start or (told is not None and start is not None and told.startswith(start))
         )
-        bits |= 1 << min(first + row, _LAST)
+        bits |= 1 << min(first + row, LAST_BIT)
     return bits
 
 
@@ -85,6 +86,8 @@ def case_messages(study: Study) -> tuple[str, ...]:
     """Return what a case can warn of without its response."""
     if isinstance(study.case, BeamFile):
         return beam_messages(study.case)
+    if study.vehicle_case.model.water_answers:
+        return (*WATER_MESSAGES, *OF_MANY, *load_messages(study.vehicle_case))
     of_modes = list(_OF_MODES)
     if any(study.vehicle_case.model.follow):
         of_modes[of_modes.index(ROTATION_DIVERGES)] = ROTATION_NOT_TURNED_BACK
@@ -118,7 +121,7 @@ def warned(found: Eigenvalues, model_error: Array, doubts: npt.NDArray[np.bool_]
         )
     bits = np.zeros(len(found.reason), dtype=np.int64)
     for k, each in enumerate((*told, *doubts)):
-        bits |= each * np.int64(1 << min(k, _LAST))
+        bits |= each * np.int64(1 << min(k, LAST_BIT))
     return np.where(reasons.failed(found.reason), 0, bits)
 
 

@@ -10,7 +10,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
 from antinode.beam.families import BENDING, FamilyName
 from antinode.beam.file import BeamFile
@@ -18,7 +18,7 @@ from antinode.inputs.units import Frozen, Length, Number, Unit
 from antinode.methods import StudyMethods
 from antinode.response.file import ResponseFile
 from antinode.response.numbers import Asked, asked_of
-from antinode.vehicle.case import Case, check_real
+from antinode.vehicle.case import Case
 
 from .subject import OfBeam, OfVehicle, subject_of
 from .table import DesignTable
@@ -59,10 +59,20 @@ MARGIN_OUTPUTS = {
     ),
 }
 """The same, of stability: without dashpots and loss factors."""
-OF_BEAMS = ("mass", *MARGIN_OUTPUTS)
+PROOF_OUTPUTS = {
+    "proven": (
+        "1",
+        "1 where all modes of a case are proven to be found, 0 where not; NaN where it failed "
+        "otherwise",
+    )
+}
+"""The same, of the certificate."""
+OF_BEAMS = ("mass", *MARGIN_OUTPUTS, *PROOF_OUTPUTS)
 """Those of them that a beam has."""
-OF_BEAMS_ALONE = ("damping_ratio",)
-"""Those of modes that a vehicle has not."""
+CASE_OUTPUTS = LOAD_OUTPUTS | MARGIN_OUTPUTS | PROOF_OUTPUTS
+"""Unit and meaning of all of them."""
+KINDS = ("elastic", "divergent", "flutter", "overdamped")
+"""Kinds of modes in the order of their numbers."""
 MODE_OUTPUTS = {
     "frequency_hz": ("Hz", "natural frequency; NaN where divergent or not solved"),
     "error_hz": ("Hz", "the frequency lies within this of frequency_hz"),
@@ -76,14 +86,19 @@ MODE_OUTPUTS = {
     "effect_of_shear": (
         "1",
         "relative effect of shear and rotary inertia, solved: f/f_EB - 1 at the same axial force; "
-        "NaN where the theory leaves them out",
+        "NaN where the theory leaves them out, and of complex modes",
     ),
     "omega2": ("rad^2/s^2", "eigenvalue"),
     "growth_rate_per_s": (
         "1/s",
         "growth rate of a divergent mode, or of a complex one: of dashpots, flutter; else NaN or 0",
     ),
-    "damping_ratio": ("1", "-Re s over abs(s) of a beam's mode: 0 without dashpots"),
+    "damping_ratio": (
+        "1",
+        "-Re s over abs(s): of beams with dashpots, of vehicles on the water's stiffness; 0 "
+        "without damping, negative where the motion grows",
+    ),
+    "kind": ("1", "0 elastic, 1 divergent, 2 flutter, 3 overdamped"),
 }
 """Unit and meaning of the outputs that have one number a mode."""
 OutputName = Literal[
@@ -94,8 +109,10 @@ OutputName = Literal[
     "omega2",
     "growth_rate_per_s",
     "damping_ratio",
+    "kind",
     "flutter_factor",
     "divergence_factor",
+    "proven",
     "sigma",
     "cavity_length",
     "cavity_diameter",
@@ -264,7 +281,8 @@ class Choices(Frozen):
         default=("frequency_hz", "error_hz", "model_error"),
         min_length=1,
         description="what is kept of every case; by default frequencies, their errors, and what "
-        "shear does: effect_of_shear where the theory solves it, else model_error",
+        "shear does: effect_of_shear where the theory solves it, else model_error; of a vehicle "
+        "with hydrodynamic_stiffness damping, growth and kind instead",
     )
     solve: StudySolve = Field(default=StudySolve(), description="what to solve, and how well")
     run_table: Run = Field(default=Run(), alias="run", description="how the work is divided")
@@ -289,9 +307,7 @@ class StudyFile(Choices):
 class Study(StudyMethods, Choices):
     """A case or a beam file, and what of it varies."""
 
-    case: Annotated[Case, AfterValidator(check_real)] | BeamFile = Field(
-        description="what the inputs are changed in"
-    )
+    case: Case | BeamFile = Field(description="what the inputs are changed in")
     response: ResponseFile | None = Field(
         default=None, description="what each case is asked to bear, with its spectra and histories"
     )
@@ -322,8 +338,13 @@ class Study(StudyMethods, Choices):
         if not isinstance(data, dict) or "outputs" in data:
             return data
         case = data.get("case")
+        if isinstance(case, Case) and case.model.water_answers:
+            return data | {"outputs": _OF_COMPLEX}
         effect = shear_output(case) if isinstance(case, Case | BeamFile) else "model_error"
         return data | {"outputs": ("frequency_hz", "error_hz", effect)}
+
+
+_OF_COMPLEX = ("frequency_hz", "error_hz", "damping_ratio", "growth_rate_per_s", "kind")
 
 
 def shear_output(case: Case | BeamFile) -> OutputName:

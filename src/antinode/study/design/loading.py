@@ -10,7 +10,7 @@ from antinode.beam.file import TABLES, BeamFile, load_beam
 from antinode.errors import InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.reading import read_beside_case, read_toml
-from antinode.vehicle.case import Case, check_real, load_case
+from antinode.vehicle.case import Case, load_case
 
 from .file import Choices, Study, StudyFile, StudyInput
 from .points import check_table
@@ -56,15 +56,9 @@ def load_study(path: str | Path, assignments: Iterable[str] = ()) -> Study:
     return study
 
 
-def load_subject(
-    path: Path, assignments: Iterable[str] = (), *, real: bool = True
-) -> Case | BeamFile:
-    """Read what a study varies something in: the case of a vehicle, or a beam file.
-
-    `real` refuses a case whose modes are complex.
-    """
+def load_subject(path: Path, assignments: Iterable[str] = ()) -> Case | BeamFile:
+    """Read what a study varies something in: the case of a vehicle, or a beam file."""
     tables = {"beam": {}} if path.suffix.lower() in TABLES else read_toml(path)
     if "beam" in tables and "vehicle" not in tables:
         return load_beam(path, assignments)
-    case = load_case(path, assignments)
-    return check_real(case) if real else case
+    return load_case(path, assignments)

@@ -20,12 +20,11 @@ from antinode.errors import InputError
 from antinode.text import nearest, short
 
 from .file import (
+    CASE_OUTPUTS,
     LOAD_OUTPUTS,
-    MARGIN_OUTPUTS,
     MODE_OUTPUTS,
     MOST_CASES,
     OF_BEAMS,
-    OF_BEAMS_ALONE,
     Study,
 )
 from .samples import SobolSamples, latin_column, random_samples
@@ -296,8 +295,6 @@ def _check_families(study: Study) -> None:
     if is_beam and loads:
         allowed = ", ".join((*MODE_OUTPUTS, *OF_BEAMS))
         raise InputError(f"outputs: {loads[0]} is of vehicles; of a beam there are {allowed}")
-    if not is_beam and (none := [name for name in study.outputs if name in OF_BEAMS_ALONE]):
-        raise InputError(f"outputs: {none[0]} is of beams with dashpots; leave it out")
 
 
 def _check_names(variables: tuple[Variable, ...], asked: set[str]) -> None:
@@ -326,7 +323,6 @@ RESERVED = (
     *("case", "mode", "reason", "warned", "track", "chunk", "checksum", "point", "shape"),
     *("tracked_mode", "tracked_mac", "tracked_doubtful", "tracked_frequency_hz", "coordinates"),
     *MODE_OUTPUTS,
-    *LOAD_OUTPUTS,
-    *MARGIN_OUTPUTS,
+    *CASE_OUTPUTS,
 )
 """Names that no input can have: those of the result."""

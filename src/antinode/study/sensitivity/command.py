@@ -15,7 +15,7 @@ from antinode.beam.file import TABLES
 from antinode.errors import InputError
 from antinode.inputs.reading import read_toml
 from antinode.show.outcome import check_plot, draw, print_json
-from antinode.show.printing import fitting, new_table, show_warnings
+from antinode.show.printing import fitting, new_table, show_left_out, show_warnings
 from antinode.study.design.file import Study, StudyInput
 from antinode.study.design.loading import load_study, load_subject
 from antinode.study.progress import cases_progress, end_progress
@@ -114,6 +114,7 @@ def show_sensitivity(out: Console, result: SensitivityResult) -> None:
         out.print(fitting((_number_bands(result, kept) for kept in _NUMBER_BANDS_KEPT), out))
         out.print(fitting((_number_indices(result, kept) for kept in _INDICES_KEPT), out))
     show_warnings(out, warning_texts(result.warnings, result.cases))
+    show_left_out(out, result.not_modelled)
 
 
 _BANDS = ("mode", "nominal [Hz]", "mean [Hz]", "sd [Hz]", "95 % from", "to", "by shear")

@@ -136,6 +136,8 @@ class SensitivityResult(SensitivityMethods):
     left_out, warnings : tuple of dict
         Which samples have no frequency, and what the indices then mean; all that is warned of,
         these included: `message`, `count`, `share` of all cases, `first_case`.
+    not_modelled : tuple of str
+        What the model leaves out.
     """
 
     name: str
@@ -148,6 +150,7 @@ class SensitivityResult(SensitivityMethods):
     left_out: tuple[dict[str, Any], ...]
     warnings: tuple[dict[str, Any], ...]
     responses: tuple[NumberSensitivity, ...] = ()
+    not_modelled: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain values for JSON."""
@@ -162,6 +165,7 @@ class SensitivityResult(SensitivityMethods):
             ],
             "modes": [self._mode(m) for m in self.modes],
             "responses": [self._response(r) for r in self.responses],
+            "not_modelled": list(self.not_modelled),
             "warnings": list(self.warnings),
         }
 
@@ -285,6 +289,7 @@ def _result(study: Study, points: Points, data: xarray.Dataset, number: int) -> 
         left_out=left_out,
         warnings=(*left_out, *data.attrs["warnings"]),
         responses=_responses(points, data, number),
+        not_modelled=tuple(data.attrs.get("not_modelled", ())),
     )
 
 

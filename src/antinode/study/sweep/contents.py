@@ -11,11 +11,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from antinode.beam.attachments import is_damped
+from antinode.beam.families import BENDING
 from antinode.beam.file import BeamFile
+from antinode.modes.result import not_modelled
 from antinode.study.cases.chunks import mode_names
-from antinode.study.cases.reasons import WHY, failed
+from antinode.study.cases.reasons import ANSWERS, WHY, failed
 from antinode.study.cases.warned import counted_warnings, messages, type_of_bits
-from antinode.study.design.file import LOAD_OUTPUTS, MARGIN_OUTPUTS, MODE_OUTPUTS, Study
+from antinode.study.design.file import CASE_OUTPUTS, MODE_OUTPUTS, Study
 from antinode.study.design.points import GROWING, Points
 from antinode.vehicle.case import Case
 from antinode.version import __version__
@@ -73,7 +76,7 @@ def outputs_of(points: Points) -> dict[str, Output]:
     found["warned"] = Output(("case",), (n,), type_of_bits(study), _warned_attrs(study))
     for name in study.outputs:
         each = name in MODE_OUTPUTS
-        unit, text = (MODE_OUTPUTS | LOAD_OUTPUTS | MARGIN_OUTPUTS)[name]
+        unit, text = (MODE_OUTPUTS | CASE_OUTPUTS)[name]
         attrs = {"units": unit, "long_name": text}
         dims, shape = (("case", "mode"), (n, modes)) if each else (("case",), (n,))
         found[name] = Output(dims, shape, "float64", attrs)
@@ -99,7 +102,8 @@ def _long_name(variable: Any) -> str:
 
 def _reason_attrs() -> dict[str, Any]:
     return {
-        "long_name": "0 where a case was solved, else why it was not; 6 has an answer",
+        "long_name": "0 where a case was solved, else why it was not; "
+        f"{', '.join(map(str, ANSWERS[1:]))} have an answer",
         "flag_values": list(WHY),
         "flag_meanings": list(WHY.values()),
     }
@@ -172,9 +176,16 @@ def attributes(points: Points) -> dict[str, Any]:
         "tolerance": study.solve.tolerance,
         "mode_names": mode_names(study),
         "input_names": [v.name for v in points.variables],
+        "not_modelled": list(missing(study)),
         "settings": json.dumps(_settings(study), sort_keys=True),
         "created": _now(),
     }
+
+
+def missing(study: Study) -> tuple[str, ...]:
+    """Return what the model of a study's case leaves out, as of its own numbers."""
+    beam = study.case.beam()
+    return not_modelled(beam, is_damped(beam.attachments, BENDING))
 
 
 def final_attributes(

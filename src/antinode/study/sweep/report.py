@@ -14,7 +14,7 @@ from rich.text import Text
 from antinode.arrays import Array, Integers
 from antinode.errors import AntinodeError
 from antinode.modes.warnings import shear_buckles
-from antinode.show.printing import fitting, new_table, percent, show_warnings
+from antinode.show.printing import fitting, new_table, percent, show_left_out, show_warnings
 from antinode.study.cases.reasons import PAST_BUCKLING, WHY, failed
 from antinode.study.cases.values import Cases
 from antinode.study.design.points import Points
@@ -53,6 +53,7 @@ def summary(points: Points, dataset: xarray.Dataset) -> dict[str, Any]:
         ],
         "modes": modes,
         "responses": _response_ranges(points, dataset),
+        "not_modelled": list(dataset.attrs.get("not_modelled", ())),
         "warnings": list(dataset.attrs["warnings"]),
     }
 
@@ -204,6 +205,7 @@ def show_sweep(out: Console, data: dict[str, Any], stored: str) -> None:
         )
         out.print(Text(f"{text}; the first is case {failure['first_case']}, {failure['text']}"))
     show_warnings(out, warning_texts(data["warnings"], data["cases"]))
+    show_left_out(out, data["not_modelled"])
 
 
 def _inputs_table(data: dict[str, Any]) -> Table:
