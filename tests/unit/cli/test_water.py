@@ -99,7 +99,7 @@ def test_a_study_tells_what_limits_its_numbers(wet):
     assert ended.code == 0, ended
     assert "1 of 1 case solved" in ended.out
     assert "touches on one side" in ended.out
-    assert "a mode grows without oscillating" in ended.out
+    assert "the motion grows without oscillating" in ended.out
     assert "Not in the model: " in ended.out
     assert "hydrodynamic stiffness" not in ended.out
 
