@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from antinode.beam.families import BENDING
 from antinode.vehicle.case import Case
 from antinode.vehicle.tangent import QUASI_STEADY
 
@@ -44,8 +43,7 @@ def water_warned(case: Case, families: Sequence[Solved], unlikely: Sequence[str]
             for warning in solved.warnings or ()
             if warning not in unlikely
         }
-        bending = case.tangents and solved.family == BENDING and solved.motion is not None
-        if bending and solved.motion is not None:
+        if solved.is_complex and solved.motion is not None:
             quick = np.nanmax(solved.motion.frequency_hz, initial=0.0)
             delayed = quick * case.vehicle.length / case.condition.speed > QUASI_STEADY
             told |= {_DELAYED} if delayed else set()
