@@ -164,6 +164,8 @@ class ModesMethods:
 
         def prove(self) -> Proof: ...  # noqa: D102
 
+        def _own_warnings(self) -> list[str]: ...
+
         _repr_html_ = cards.modes_card
     else:
         plot = Method("show.objects.plots", "modes_axes")
@@ -171,6 +173,7 @@ class ModesMethods:
         save = Method("exchange.saving", "save_modes")
         buckling = Method("modes.buckling", "buckling_of")
         prove = Method("proof.prove", "prove")
+        _own_warnings = Method("modes.warnings", "warnings_of")
         _repr_html_ = Method("show.objects.cards", "modes_card")
         __repr__ = Method("show.objects.lines", "modes_line")
 

@@ -42,7 +42,7 @@ from .ends import FREE, Ends, lateral_freedoms
 from .families import BENDING, FAMILIES, FamilyName, tells
 from .loads.turning import with_their_force
 from .mass import moments_of_part, shifted
-from .profile import interpolated
+from .profile import AT_START, interpolated
 from .representation import make_chain
 from .reversal import reversed_beam
 from .stations import as_column, tables_at_stations, tables_of
@@ -331,7 +331,9 @@ class Beam(BeamMethods, ByValue):
 
         What no logarithm is for runs straight, or by its control values.
         """
-        values = getattr(self, name)
+        values: Array = getattr(self, name)
+        if fraction is AT_START:
+            return values[interval, 0]
         if values.shape[1] > 2:
             return curves.value(values[interval], fraction)
         a, b = values[interval, 0], values[interval, 1]

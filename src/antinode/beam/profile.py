@@ -19,6 +19,10 @@ ROUNDING = 1e-12
 """Of the largest |x|, by which a place may miss an end of the beam: "3 ft" is not quite "36 in"."""
 
 
+AT_START = np.zeros(())
+"""The fraction of all intervals at which they start: what stands there needs no arithmetic."""
+
+
 def interpolated(a: Any, b: Any, fraction: Any, how: Interpolation) -> Any:
     """Return what a property is at fractions 0 ... 1 between its values `a` and `b`."""
     return a * (b / a) ** fraction if how == "log" else a + (b - a) * fraction

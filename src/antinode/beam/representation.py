@@ -13,6 +13,7 @@ from antinode.riccati.chain import Chain
 from . import curves
 from .checks import given
 from .families import FAMILIES, FamilyName
+from .profile import AT_START
 
 if TYPE_CHECKING:
     from .beam import Beam
@@ -53,8 +54,7 @@ def make_chain(
     varies = beam.varies(family)
     law, values = FAMILIES[family].law, _values(beam, family, loss)
     if not varies.any():
-        all_, left_end = np.s_[:], np.zeros(len(beam.x) - 1)
-        columns = {name: np.array(v(all_, left_end)) for name, v in values.items()}
+        columns = {name: np.array(at(np.s_[:], AT_START)) for name, at in values.items()}
         left, right, points = beam.points(family)
         return Chain(law, np.diff(beam.x), columns, left, right, points, beam.following(family))
     cell, start, size = coarsest_steps(beam, family)

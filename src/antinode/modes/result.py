@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -251,8 +252,8 @@ class ModalResult(ModesMethods, ByValue):
         What proves that no bending mode is missing and none too many: ``{"kind": "counts"}``; where
         end forces follow "winding", with the region and the record of the proof; "none" where
         nothing is proven.
-    warnings : tuple of str
-        What a user should know before trusting the numbers, and what to do about it.
+    noted : tuple of str
+        What was noticed before the modes were known, by the file or the solver: among `warnings`.
     """
 
     beam: Beam
@@ -263,7 +264,7 @@ class ModalResult(ModesMethods, ByValue):
     normalisation: Normalisation
     segments: dict[str, int]
     solutions: dict[FamilyName, Solution] = field(repr=False, compare=False)
-    warnings: tuple[str, ...]
+    noted: tuple[str, ...]
     certificate: Mapping[str, Any] = field(default_factory=lambda: {"kind": "counts"})
 
     def __str__(self) -> str:
@@ -276,6 +277,11 @@ class ModalResult(ModesMethods, ByValue):
             )
             lines.append(f"  {mode.name:<20} {mode.kind:<10} {value}")
         return "\n".join([*lines, *(f"  warning: {w}" for w in self.warnings)])
+
+    @cached_property
+    def warnings(self) -> tuple[str, ...]:
+        """What a user should know before trusting the numbers, and what to do about it."""
+        return (*self.noted, *self._own_warnings())
 
     @property
     def follows(self) -> bool:

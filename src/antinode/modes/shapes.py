@@ -28,12 +28,13 @@ def output_grid(beam: Beam, modes: int) -> Array:
     spacing = beam.length / max(200, 20 * (modes + 2))
     h = beam.x[1:] - beam.x[:-1]
     pieces = np.ceil(h / spacing - _SLACK).astype(int)
-    first = np.cumsum(pieces) - pieces
-    number = np.arange(first[-1] + pieces[-1]) - np.repeat(first, pieces)
-    points = np.repeat(beam.x[:-1], pieces) + number * np.repeat(h / pieces, pieces)
+    last = pieces.cumsum()
+    which = np.arange(len(h)).repeat(pieces)
+    number = np.arange(last[-1]) - (last - pieces)[which]
+    grid = np.empty(last[-1] + 1)
+    grid[:-1], grid[-1] = beam.x[which] + number * (h / pieces)[which], beam.x[-1]
     inner = [item.x for item in beam.attachments if beam.x[0] < item.x < beam.x[-1]]
     doubled = sorted({int(np.argmin(np.abs(beam.x - x))) for x in inner})
-    grid = np.append(points, beam.x[-1])
     return np.sort(np.append(grid, beam.x[doubled])) if doubled else grid
 
 

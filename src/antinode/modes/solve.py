@@ -36,7 +36,6 @@ from .refinement import NEAR_ZERO, Solved, solve_family
 from .result import Damping, Kind, Method, ModalResult, Mode, Normalisation, Solution
 from .shapes import left_out, model_errors_of, normalised_modes, output_grid
 from .solvers import Solver, solver_of
-from .warnings import result_warnings
 
 
 class HasBeam(Protocol):
@@ -152,7 +151,7 @@ def beam_of(problem: Beam | HasBeam) -> Beam:
 def _with_notes(result: ModalResult, problem: Beam | HasBeam) -> ModalResult:
     """Return the result with what the file of its problem should have been told about."""
     notes = getattr(problem, "notes", ())
-    return replace(result, warnings=(*notes, *result.warnings)) if notes else result
+    return replace(result, noted=(*notes, *result.noted)) if notes else result
 
 
 def _solve_families(
@@ -198,7 +197,6 @@ def _solve_families(
     found = _compare_rigid_in_shear(solver.counting, beam, found, modes, tolerance)
     if not all(math.isfinite(mode.omega2) for mode in found):
         raise ComputationError("a frequency is no finite number; check the units of the input")
-    warnings += result_warnings(beam, found)
     return ModalResult(
         beam=beam,
         modes=tuple(found),
@@ -208,7 +206,7 @@ def _solve_families(
         normalisation=normalisation,
         segments=segments,
         solutions=solutions,
-        warnings=tuple(warnings),
+        noted=tuple(warnings),
         certificate=certificates.get(BENDING, next(iter(certificates.values()))),
     )
 
@@ -262,7 +260,7 @@ def _modes_of(
     model_errors = model_errors_of(beam, chain, omega2, forms)
     size = cancelling(forms.size, mass, omega2)
     off = np.abs(forms.stiffness / forms.mass - omega2)
-    quadratic = np.transpose([mass, off, size.real]).tolist()
+    quadratic = zip(mass.tolist(), off.tolist(), size.real.tolist(), strict=True)
     near_zero = NEAR_ZERO * omega2_scale(solved.chain)
     given = zip(keep, at_grid.real, quadratic, model_errors, strict=True)
     rows = [
@@ -279,7 +277,7 @@ def _mode(
     k: int,
     named: tuple[str, int],
     shape: Array,
-    quadratic: list[float],
+    quadratic: tuple[float, float, float],
     model_error: float | None,
     near_zero: float,
 ) -> Mode:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from antinode.beam.attachments import PointFeedback
 from antinode.beam.beam import Beam
+from antinode.beam.limits import out_of_range_is_an_error
 from antinode.beam.plausible import doubts, pushed_at
 from antinode.beam.sections.shapes import THIN_TUBE
 
-from .result import Mode
+from .result import ModalResult, Mode
 
 MODEL_LIMIT = 0.02
 """Share of a frequency beyond which shear and rotary inertia are warned of."""
@@ -102,7 +104,7 @@ def _cause(beam: Beam) -> str:
     return PAST_BUCKLING
 
 
-def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
+def result_warnings(beam: Beam, modes: Sequence[Mode]) -> list[str]:
     """Return what a user should know of these modes, a sentence each."""
     warnings = doubts(beam)
     divergent = [m for m in modes if m.kind == "divergent" and m.number]
@@ -135,6 +137,12 @@ def result_warnings(beam: Beam, modes: list[Mode]) -> list[str]:
     return warnings + _shear_warnings(modes) + left_out(beam)
 
 
+@out_of_range_is_an_error()
+def warnings_of(result: ModalResult) -> list[str]:
+    """Return what a user should know of a result, a sentence each."""
+    return result_warnings(result.beam, result.modes)
+
+
 def _growing(modes: list[Mode]) -> str:
     """Name modes that grow, and how fast."""
     return ", ".join(f"{m.name} (by {m.eigenvalue_per_s.real:.4g} /s)" for m in modes)
@@ -152,7 +160,7 @@ def left_out(beam: Beam) -> list[str]:
     ]
 
 
-def _shear_warnings(modes: list[Mode]) -> list[str]:
+def _shear_warnings(modes: Sequence[Mode]) -> list[str]:
     """Return what the estimate of shear and rotary inertia means where it is large."""
     errors = [(m.name, m.model_error) for m in modes if m.model_error is not None]
     large = [name for name, error in errors if abs(error) > MODEL_LIMIT]

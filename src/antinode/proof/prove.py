@@ -82,9 +82,9 @@ class Proof:
             return replace(result, certificate=certificate)
         region = dict(next(iter(self.regions.values())))
         del region["eigenvalues"]
-        kept = [w for w in result.warnings if not w.endswith(_NOT_PROVEN)]
+        kept = [w for w in result.noted if not w.endswith(_NOT_PROVEN)]
         certificate |= {"kind": "winding", "region": region}
-        return replace(result, certificate=certificate, warnings=tuple(kept))
+        return replace(result, certificate=certificate, noted=tuple(kept))
 
 
 @dataclass(frozen=True)

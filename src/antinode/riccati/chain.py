@@ -153,7 +153,7 @@ class Chain:
     @cached_property
     def reference(self) -> tuple[float, float]:
         """Stiffness and mass per length that scale the equations (means over the length)."""
-        weight = self.length / np.sum(self.length)
+        weight = self.length / self.length.sum()
         return float(np.exp(weight @ np.log(np.abs(self.stiffness)))), float(weight @ self.mass)
 
     def units(self, omega2: Array) -> Units:
@@ -168,7 +168,7 @@ class Chain:
 def omega2_scale(chain: Chain) -> float:
     """Return a natural unit of omega^2 for the chain [rad^2/s^2]: EI/(m L^4) or EA/(m L^2)."""
     stiffness, mass = chain.reference
-    return float(stiffness / (mass * float(np.sum(chain.length)) ** chain.law.power))
+    return float(stiffness / (mass * float(chain.length.sum()) ** chain.law.power))
 
 
 def largest_wave_number(chain: Chain, omega2: float) -> Array:

@@ -39,6 +39,8 @@ _GIVEN, _WORK, _REACH, _SUMMED = 6, 6, 7, 8
 """Rows of what is summed: as `riccati.normalised.Forms` has it, of which `_GIVEN` are given out;
 the work of the axial force, and the largest displacement at nodes."""
 _PEAKS, _TURNS, _NEAR = 4, 3, 1e-7
+_SURE, _SHORT = 0.9, 0.5
+"""The cubic of a peak in a segment of so short a phase is nearer to its height than by a tenth."""
 
 
 @compiled
@@ -72,18 +74,28 @@ def _add_squares(force, weight, there, work, square):
 
 @compiled
 def _set_squares(chain, states, shares, weights, terms, room):
-    """Integrate the squares of states over every segment, by Gauss points and exact states."""
+    """Integrate the squares of states over every segment, by Gauss points and exact states.
+
+    Points lie in pairs on either side of the middle, and one matrix leads to both.
+    """
     work, own, k = room.work, room.own, states.shape[1]
+    middle = room.frame[0]
     for i in range(len(chain.length)):
         h, square, column = chain.length[i], room.squares[i], own.columns[i]
+        EI, alpha, force = own.stiffness[i], own.coupling[i], chain.force[i]
         _scale(states, i, k, work, room.here)
         for j in range(SQUARES):
             square[j] = 0.0
-        for p in range(len(shares)):
-            place = h * shares[p]
-            transfer(place, own.stiffness[i], own.coupling[i], column, terms, work, room.step)
-            step(room.step, 1.0, room.here, room.there)
-            _add_squares(chain.force[i], weights[p] * h, room.there, work, square)
+        transfer(h / 2.0, EI, alpha, column, terms, work, room.step)
+        step(room.step, 1.0, room.here, middle)
+        if len(shares) % 2 == 1:
+            _add_squares(force, weights[len(shares) // 2] * h, middle, work, square)
+        for p in range(len(shares) // 2):
+            transfer(h * (0.5 - shares[p]), EI, alpha, column, terms, work, room.step)
+            step(room.step, -1.0, middle, room.there)
+            _add_squares(force, weights[p] * h, room.there, work, square)
+            step(room.step, 1.0, middle, room.there)
+            _add_squares(force, weights[p] * h, room.there, work, square)
 
 
 @compiled
@@ -130,7 +142,7 @@ def integrate(chain, omega2, states, rules, longest, room):
 def _integrate(chain, omega2, states, rules, phase, room):
     """Set the integrals of squares, given the largest phase of a segment."""
     wide_vectors()
-    terms, which = _prepare(chain, omega2, phase, room), _rule(phase, rules)
+    terms, which = _prepare(chain, omega2, phase / 2.0, room), _rule(phase, rules)
     number = rules.numbers[which]
     shares, weights = rules.shares[which, :number], rules.weights[which, :number]
     _set_squares(chain, states, shares, weights, terms, room)
@@ -280,11 +292,14 @@ def _find_peaks(length, marks, more, states, terms, room):
 
 
 @compiled
-def _largest(length, more, states, lane, terms, room):
-    """Return the largest displacement of a mode: `riccati.normalised.largest_displacements`."""
+def _largest(length, more, states, lane, sure, terms, room):
+    """Return the largest displacement of a mode: `riccati.normalised.largest_displacements`.
+
+    A peak is not computed whose cubic is less than a share `sure` of what is known.
+    """
     largest, most = room.largest[lane], room.peaks[lane]
     for k in range(_PEAKS):
-        if most[k, 0] > 0.0:
+        if most[k, 0] > sure * largest:
             i = int(most[k, 2])
             height = _height(length[i], more, states, i, lane, most[k, 1], terms, room)
             largest = max(largest, height)
@@ -373,10 +388,10 @@ def normalise(chain, omega2, states, pair, asked, rules, longest, room, sums, gr
     if not phase <= longest:
         return False
     _set_forms(chain, omega2, states, pair, asked.beside, rules, phase, room, sums)
-    terms = terms_for(phase)
+    terms, sure = terms_for(phase), _SURE if phase < _SHORT else 0.0
     _find_peaks(chain.length, chain.marks, chain.more, states, terms, room)
     for lane in range(states.shape[1]):
-        largest = _largest(chain.length, chain.more, states, lane, terms, room)
+        largest = _largest(chain.length, chain.more, states, lane, sure, terms, room)
         size = math.sqrt(abs(sums[_MASS, lane])) if asked.by_mass else largest
         room.factor[lane] = _sign(states, lane, largest) / size
         for row in range(_GIVEN):
