@@ -151,7 +151,8 @@ class _Mesh:
         inside = (m @ integral.T) * self.h[:, None] / 2
         before = np.concatenate([[0.0], np.cumsum(np.sum(m * w, axis=1))])[:-1]
         for node, items in at.items():
-            before[node:] += sum(getattr(item, "mass", 0.0) for item in items)
+            fixed = (item for item in items if type(item).__name__ != "Pedestal")
+            before[node:] += sum(getattr(item, "mass", 0.0) for item in fixed)
         return before[:, None] + inside
 
     def _bases(self, xi, degree):
@@ -190,6 +191,9 @@ class _Mesh:
                 kind = type(item).__name__
                 if kind == "Joint":
                     self._joint(item, dofs[-1], node, right_slope)
+                elif kind == "Pedestal":
+                    if p == 2:
+                        self._pedestal(item, dofs[0])
                 elif kind == "Spring":
                     stiffness = [getattr(item, name) for name in springs]
                     held += [d for d, s in zip(dofs, stiffness, strict=True) if np.isinf(s)]
@@ -220,6 +224,14 @@ class _Mesh:
         right_slope[node] = self.size
         K = np.array([[1, -1], [-1, 1]]) / compliance
         self.points.append(([dof, self.size], K, np.zeros((2, 2))))
+        self.size += 1
+
+    def _pedestal(self, item, dof):
+        """An unknown for its mass, between two springs."""
+        k = item.beam_stiffness
+        self.points.append(([dof, self.size], np.array([[k, -k], [-k, k]]), np.zeros((2, 2))))
+        own = np.array([[item.ground_stiffness]]), np.array([[item.mass]])
+        self.points.append(([self.size], *own))
         self.size += 1
 
     def forms(self, vectors):

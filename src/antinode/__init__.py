@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .app.server import run_app
-    from .beam.attachments import Dashpot, Joint, PointFeedback, PointMass, Spring
+    from .beam.attachments import Dashpot, Joint, Pedestal, PointFeedback, PointMass, Spring
     from .beam.beam import Beam
     from .beam.ends import Ends
     from .beam.file import BeamFile, load_beam
@@ -83,6 +83,7 @@ _HOME = {
     "BeamFile": "beam.file",
     "Dashpot": "beam.attachments",
     "Joint": "beam.attachments",
+    "Pedestal": "beam.attachments",
     "Material": "beam.sections.material",
     "Section": "beam.sections.section",
     "drawn_beam": "beam.sections.drawn",
@@ -178,6 +179,7 @@ __all__ = [
     "Model",
     "OperatingCondition",
     "Output",
+    "Pedestal",
     "PointFeedback",
     "PointMass",
     "Proof",

@@ -1,220 +1,64 @@
-"""Point masses, springs, supports, joints, dashpots and feedback of a beam, node by node."""
+"""What a beam carries, checked and gathered node by node."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from antinode.arguments import numbers
 from antinode.arrays import Array
 from antinode.errors import InputError
+from antinode.riccati.points import Pedestal as PedestalPoint
 from antinode.riccati.points import Point
 from antinode.text import short
 
+from .carried.kinds import (
+    Attachment,
+    Dashpot,
+    Joint,
+    Pedestal,
+    PointFeedback,
+    PointMass,
+    Spring,
+    attachment_dict,
+    name_of,
+    name_of_kind,
+)
 from .families import FAMILIES, Family, FamilyName
 from .profile import ROUNDING
 
+__all__ = [
+    "APART",
+    "Attachment",
+    "Dashpot",
+    "Joint",
+    "Pedestal",
+    "PointFeedback",
+    "PointMass",
+    "Spring",
+    "attachment_dict",
+    "beside_joints",
+    "check_attachments",
+    "check_kinds",
+    "check_pedestals",
+    "check_supports_apart",
+    "feeds_back",
+    "gather",
+    "held_places",
+    "is_damped",
+    "lateral",
+    "name_of",
+    "on_beam",
+    "pushing_springs",
+    "refuse_feedback",
+    "refuse_pedestals",
+    "springs_hold",
+]
+
 APART = 1e-8
 """Least distance of two supports over the length of the beam; nearer ones hold nothing between."""
-
-
-class _Given:
-    """What may be given as texts with units: ``PointMass(x="3 ft", mass="20 kg")``."""
-
-    def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            if type(value) is not float and type(value) is not int:
-                object.__setattr__(self, name, _number(type(self), name, value))
-
-
-@dataclass(frozen=True)
-class PointMass(_Given):
-    """A rigid mass fixed to the beam.
-
-    Parameters
-    ----------
-    x : float
-        Station [m].
-    mass : float
-        [kg], positive.
-    rotary_inertia : float
-        About its own centre, across the beam [kg m^2].
-    offset : float
-        Of its centre along +x from the station [m].
-    polar_inertia : float
-        About the axis of the beam [kg m^2].
-    """
-
-    x: float
-    mass: float
-    rotary_inertia: float = 0.0
-    offset: float = 0.0
-    polar_inertia: float = 0.0
-
-
-@dataclass(frozen=True)
-class Spring(_Given):
-    """Springs between the beam and the ground; infinite ones are supports.
-
-    Parameters
-    ----------
-    x : float
-        Station [m].
-    translational, axial : float
-        [N/m], zero or positive; `math.inf` holds Y, or X, at zero.
-    rotational, torsional : float
-        [N m/rad]; `math.inf` holds the slope, or the rotation about the axis, at zero.
-    coupling : float
-        K_xtheta [N], of either sign: the lateral force of a unit slope, and the moment of a unit
-        displacement; not beside an infinite stiffness.
-    """
-
-    x: float
-    translational: float = 0.0
-    rotational: float = 0.0
-    axial: float = 0.0
-    torsional: float = 0.0
-    coupling: float = 0.0
-
-
-@dataclass(frozen=True)
-class Joint(_Given):
-    """An elastic joint in line with the beam.
-
-    Parameters
-    ----------
-    x : float
-        Station inside the span [m].
-    rotational : float
-        Compliance [rad/(N m)]: slope on the right less slope on the left, over the moment.
-    axial : float
-        Compliance [m/N].
-    torsional : float
-        Compliance [rad/(N m)]: rotation on the right less that on the left, over the torque.
-    """
-
-    x: float
-    rotational: float = 0.0
-    axial: float = 0.0
-    torsional: float = 0.0
-
-
-@dataclass(frozen=True)
-class Dashpot(_Given):
-    """Dampers between the beam and the ground; undamped modes know nothing of them.
-
-    Parameters
-    ----------
-    x : float
-        Station [m].
-    translational, axial : float
-        Force over velocity [N s/m], zero or positive.
-    rotational, torsional : float
-        Moment over angular velocity [N m s/rad].
-    """
-
-    x: float
-    translational: float = 0.0
-    rotational: float = 0.0
-    axial: float = 0.0
-    torsional: float = 0.0
-
-
-@dataclass(frozen=True)
-class PointFeedback:
-    """A force and a moment at a station that oppose the motion there: not of springs alone.
-
-    With the displacement Y and the turn psi of the section, and their rates, the beam feels::
-
-        force  = -(translational Y + force_of_turn psi)
-                 - (translational_damping Y' + force_of_turn_rate psi')
-        moment = -(moment_of_displacement Y + rotational psi)
-                 - (moment_of_velocity Y' + rotational_damping psi')
-
-    Where `force_of_turn` differs from `moment_of_displacement` no energy stands behind it, and it
-    may drive the beam: linearised forces of a fluid, a control. Any number may have either sign.
-
-    Parameters
-    ----------
-    x : float
-        Station [m].
-    translational, translational_damping : float
-        [N/m], [N s/m].
-    force_of_turn, moment_of_displacement : float
-        [N] (per rad), [N m/m].
-    force_of_turn_rate, moment_of_velocity : float
-        [N s] (per rad), [N m s/m].
-    rotational, rotational_damping : float
-        [N m/rad], [N m s/rad].
-    """
-
-    x: float
-    translational: float = 0.0
-    force_of_turn: float = 0.0
-    moment_of_displacement: float = 0.0
-    rotational: float = 0.0
-    translational_damping: float = 0.0
-    force_of_turn_rate: float = 0.0
-    moment_of_velocity: float = 0.0
-    rotational_damping: float = 0.0
-
-    @classmethod
-    def of(
-        cls, x: float, stiffness: npt.ArrayLike, damping: npt.ArrayLike = ((0, 0), (0, 0))
-    ) -> PointFeedback:
-        """Return it by its matrices: ``(force, moment) = -K (Y, psi) - C (Y', psi')``.
-
-        Parameters
-        ----------
-        x : float
-            Station [m].
-        stiffness, damping : array_like, shape (2, 2)
-            K [N/m, N; N, N m] and C [N s/m, N s; N s, N m s].
-        """
-        K, C = numbers("stiffness", stiffness), numbers("damping", damping)
-        for name, matrix in (("stiffness", K), ("damping", C)):
-            if matrix.shape != (2, 2):
-                raise InputError(
-                    f"the point feedback at x = {x:g} m: {name} has the shape {matrix.shape}; "
-                    "(2, 2) is wanted: rows force and moment, columns Y and psi"
-                )
-        return cls(x, *K.ravel().tolist(), *C.ravel().tolist())
-
-    @property
-    def stiffness(self) -> Array:
-        """K, shape (2, 2): rows force and moment, columns Y and psi."""
-        rows = (self.translational, self.force_of_turn)
-        return np.array([rows, (self.moment_of_displacement, self.rotational)])
-
-    @property
-    def damping(self) -> Array:
-        """C, shape (2, 2)."""
-        rows = (self.translational_damping, self.force_of_turn_rate)
-        return np.array([rows, (self.moment_of_velocity, self.rotational_damping)])
-
-    @property
-    def gives_energy(self) -> bool:
-        """Whether its damping gives energy to some motion."""
-        (a, b), (c, d) = self.damping.tolist()
-        return bool(a < 0 or d < 0 or 4 * a * d < (b + c) ** 2)
-
-
-Attachment = PointMass | Spring | Joint | Dashpot | PointFeedback
-
-
-def _number(kind: type, name: str, value: Any) -> Any:
-    """Return a number in SI from what was given; what is none is left to `check_kinds`."""
-    from antinode.inputs.given import in_si, written_unit
-
-    unit = "m" if name == "x" else written_unit(_UNITS[kind][name])
-    number = in_si(f"{name} of a {_NAMES[kind]}", value, unit)
-    return float(number) if np.ndim(number) == 0 and np.isreal(number) else value
 
 
 def beside_joints(items: Iterable[Attachment]) -> list[float]:
@@ -255,7 +99,7 @@ def check_kinds(items: Iterable[object]) -> None:
         if not isinstance(item, Attachment):
             raise InputError(
                 f"{short(item)} is nothing that a beam carries; give each PointMass, Spring, "
-                "Joint, Dashpot or PointFeedback as an argument of its own"
+                "Pedestal, Joint, Dashpot or PointFeedback as an argument of its own"
             )
         for name, value in vars(item).items():
             if isinstance(value, str | bytes) or not np.isscalar(value):
@@ -283,6 +127,16 @@ def refuse_feedback(items: Iterable[Attachment], family: FamilyName, what: str) 
         )
 
 
+def refuse_pedestals(items: Iterable[Attachment], what: str) -> None:
+    """Raise InputError if a pedestal stands on a beam, for something that does not know it yet."""
+    for item in items:
+        if isinstance(item, Pedestal):
+            raise InputError(
+                f"the pedestal at x = {item.x:g} m: {what} know nothing of a mass between two "
+                "springs as yet; take it out there, or ask for modes, frequencies or buckling"
+            )
+
+
 def on_beam(place: float, x: Array) -> float:
     """Return the end of the beam where a place misses it by rounding, else the place itself [m]."""
     for end in (float(x[0]), float(x[-1])):
@@ -300,7 +154,7 @@ def check_attachments(
     """
     signed = (*_SIGNED, "translational") if softened else _SIGNED
     for item in attachments:
-        what = f"the {_NAMES[type(item)]} at x = {item.x:g} m"
+        what = f"the {name_of_kind(type(item))} at x = {item.x:g} m"
         if not x[0] <= item.x <= x[-1]:
             raise InputError(f"{what} is off the beam, which runs from {x[0]:g} to {x[-1]:g} m")
         for name, value in vars(item).items():
@@ -317,6 +171,34 @@ def check_attachments(
         if isinstance(item, Joint) and item.x in (x[0], x[-1]):
             raise InputError(f"{what} stands at an end; a joint needs beam on both sides")
     check_supports_apart(held_places(attachments), x)
+    check_pedestals(attachments, held_places(attachments))
+
+
+def check_pedestals(attachments: Sequence[Attachment], held: Sequence[float]) -> None:
+    """Raise InputError unless pedestals have a mass and a spring, and places that can move.
+
+    Parameters
+    ----------
+    attachments : sequence
+    held : sequence of float
+        Where the beam is held sideways [m].
+    """
+    places: set[float] = set()
+    for item in attachments:
+        if not isinstance(item, Pedestal):
+            continue
+        what = f"the pedestal at x = {item.x:g} m"
+        for name in ("mass", "beam_stiffness"):
+            if getattr(item, name) == 0:
+                raise InputError(f"{what}: {name} is 0; it must be positive")
+        if item.x in places:
+            raise InputError(f"{what} stands where another does; a station takes one pedestal")
+        if item.x in held:
+            raise InputError(
+                f"{what} stands where the beam is held sideways, and does nothing to it: "
+                "remove it, or move it to where the beam moves"
+            )
+        places.add(item.x)
 
 
 def lateral(spring: Spring) -> tuple[float, float]:
@@ -342,65 +224,7 @@ def check_supports_apart(places: Iterable[float], x: Array) -> None:
             )
 
 
-def name_of(item: Attachment) -> str:
-    """Return what an attachment is: a point mass, a spring, a support or a joint."""
-    if isinstance(item, Spring) and math.inf in (getattr(item, name) for name in _UNITS[Spring]):
-        return "support"
-    return _NAMES[type(item)]
-
-
-_UNITS: dict[type, dict[str, str]] = {
-    PointMass: {"mass": "kg", "rotary_inertia": "kg_m2", "offset": "m", "polar_inertia": "kg_m2"},
-    Spring: {
-        "translational": "N_per_m",
-        "rotational": "N_m_per_rad",
-        "axial": "N_per_m",
-        "torsional": "N_m_per_rad",
-        "coupling": "N",
-    },
-    Joint: {"rotational": "rad_per_N_m", "axial": "m_per_N", "torsional": "rad_per_N_m"},
-    Dashpot: {
-        "translational": "N_s_per_m",
-        "rotational": "N_m_s_per_rad",
-        "axial": "N_s_per_m",
-        "torsional": "N_m_s_per_rad",
-    },
-    PointFeedback: {
-        "translational": "N_per_m",
-        "force_of_turn": "N",
-        "moment_of_displacement": "N",
-        "rotational": "N_m_per_rad",
-        "translational_damping": "N_s_per_m",
-        "force_of_turn_rate": "N_s",
-        "moment_of_velocity": "N_s",
-        "rotational_damping": "N_m_s_per_rad",
-    },
-}
-
-
-def attachment_dict(item: Attachment) -> dict[str, Any]:
-    """Return an attachment as plain numbers for JSON, units in the keys.
-
-    An infinite stiffness is null, and named under ``holds``.
-    """
-    values = {name: getattr(item, name) for name in _UNITS[type(item)]}
-    plain = {
-        f"{name}_{_UNITS[type(item)][name]}": None if value == math.inf else value
-        for name, value in values.items()
-    }
-    held = [name for name, value in values.items() if value == math.inf]
-    more = {"holds": held} if isinstance(item, Spring) else {}
-    return {"kind": name_of(item), "x_m": item.x, **plain, **more}
-
-
 _SIGNED = ("x", "offset", "coupling")
-_NAMES = {
-    PointMass: "point mass",
-    Spring: "spring",
-    Joint: "joint",
-    Dashpot: "dashpot",
-    PointFeedback: "point feedback",
-}
 
 
 def springs_hold(point: Point) -> tuple[float, tuple[int, ...]]:
@@ -409,7 +233,7 @@ def springs_hold(point: Point) -> tuple[float, tuple[int, ...]]:
     Springs [[k, k_c], [k_c, k_r]] of rank one hold no more than the displacement at k_c/k from
     their station: they are one spring on a rigid arm.
     """
-    k, turning, coupling = point.spring, point.rotational_spring, point.coupling
+    k, turning, coupling = point.static_spring, point.rotational_spring, point.coupling
     if coupling and abs(k * turning - coupling**2) <= ROUNDING * coupling**2:
         return coupling / k, (0,)
     springs = (k or coupling, turning or coupling)
@@ -418,7 +242,7 @@ def springs_hold(point: Point) -> tuple[float, tuple[int, ...]]:
 
 def pushing_springs(point: Point) -> bool:
     """Tell whether the springs of a point can do work: K_xtheta^2 above K_x K_theta."""
-    k, turning, coupling = point.spring, point.rotational_spring, point.coupling
+    k, turning, coupling = point.static_spring, point.rotational_spring, point.coupling
     return k >= 0 and coupling**2 > max(k * turning, 0.0) + ROUNDING * coupling**2
 
 
@@ -465,6 +289,7 @@ def _point(k: int, items: list[Attachment], family: Family, acceleration: float)
     return Point(
         k,
         **_mass([item for item in items if isinstance(item, PointMass)], family, acceleration),
+        pedestal=_pedestal(items, family),
         spring=finite[0],
         rotational_spring=finite[1] if family.rotary else 0.0,
         coupling=sum(s.coupling for s in springs) if family.rotary else 0.0,
@@ -475,6 +300,14 @@ def _point(k: int, items: list[Attachment], family: Family, acceleration: float)
         feedback=_matrix([item.stiffness for item in feedback]),
         feedback_damping=_matrix([item.damping for item in feedback]),
     )
+
+
+def _pedestal(items: list[Attachment], family: Family) -> PedestalPoint | None:
+    """Return the pedestal of a node; it moves sideways alone."""
+    own = next((item for item in items if isinstance(item, Pedestal)), None)
+    if own is None or not family.rotary:
+        return None
+    return PedestalPoint(own.mass, own.beam_stiffness, own.ground_stiffness)
 
 
 def _matrix(matrices: list[Array]) -> tuple[float, float, float, float] | None:

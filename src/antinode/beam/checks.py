@@ -11,7 +11,12 @@ from antinode.arguments import choice
 from antinode.arrays import Array, Interpolation
 from antinode.errors import InputError
 
-from .attachments import check_attachments, check_supports_apart, held_places
+from .attachments import (
+    check_attachments,
+    check_pedestals,
+    check_supports_apart,
+    held_places,
+)
 from .ends import check_follower
 from .families import FAMILIES, FamilyName
 from .stations import check_stations
@@ -89,6 +94,7 @@ def _check_supports(beam: Beam) -> None:
     ends = zip((beam.ends.left, beam.ends.right), beam.x[[0, -1]].tolist(), strict=True)
     held = [x for end, x in ends if end in ("pinned", "clamped")]
     check_supports_apart([*held, *held_places(beam.attachments)], beam.x)
+    check_pedestals(beam.attachments, held)
 
 
 def _check_followers(beam: Beam) -> None:

@@ -18,7 +18,7 @@ from antinode.arrays import Array
 from antinode.errors import InputError
 
 from . import curves
-from .attachments import PointMass, Spring
+from .attachments import PointMass, Spring, refuse_pedestals
 from .beam import Beam
 from .loads.axial_supports import axial_supports
 
@@ -57,6 +57,7 @@ def apply_rotation(beam: Beam, rotation: Rotation) -> Beam:
         varies exponentially.
     """
     _check(beam, rotation)
+    refuse_pedestals(beam.attachments, "beams that rotate")
     square = rotation.rate**2
     arm = np.stack([beam.x[:-1], beam.x[1:]], axis=1) - rotation.axis
     pull = square * curves.product(beam.mass_per_length, arm)

@@ -8,7 +8,15 @@ from pydantic import ConfigDict, Field, model_validator
 
 from antinode.inputs.units import Acceleration, Force, Frozen, Length, Mass, Unit
 
-from .attachments import Attachment, Dashpot, Joint, PointFeedback, PointMass, Spring
+from .attachments import (
+    Attachment,
+    Dashpot,
+    Joint,
+    Pedestal,
+    PointFeedback,
+    PointMass,
+    Spring,
+)
 from .axial import AxialLoads, PointForce
 from .rotation import Plane, Rotation
 
@@ -68,6 +76,23 @@ class SpringTable(Frozen):
     def attachment(self) -> Spring:
         """Return it as the beam wants it."""
         return Spring(**vars(self))
+
+
+class PedestalTable(Frozen):
+    """A mass between a spring to the beam and one to the ground: `[[beam.pedestals]]`."""
+
+    x: Length = Field(description="station [m]")
+    mass: Annotated[Mass, Field(gt=0)] = Field(description="mass [kg]; it moves sideways alone")
+    beam_stiffness: Annotated[float, Unit("N/m"), Field(gt=0)] = Field(
+        description="of the spring between beam and mass [N/m]"
+    )
+    ground_stiffness: AxialStiffness = Field(
+        0.0, description="of the spring between mass and ground [N/m]; 0: it hangs on the beam"
+    )
+
+    def attachment(self) -> Pedestal:
+        """Return it as the beam wants it."""
+        return Pedestal(**vars(self))
 
 
 class JointTable(Frozen):
@@ -196,6 +221,9 @@ class AttachmentTables(Frozen):
 
     point_masses: tuple[PointMassTable, ...] = Field((), description="rigid masses")
     springs: tuple[SpringTable, ...] = Field((), description="springs and supports to ground")
+    pedestals: tuple[PedestalTable, ...] = Field(
+        (), description="masses between two springs, to the beam and to the ground"
+    )
     joints: tuple[JointTable, ...] = Field((), description="elastic joints in line")
     dashpots: tuple[DashpotTable, ...] = Field(
         (), description="dampers to ground: for responses and complex modes"
@@ -209,12 +237,19 @@ class AttachmentTables(Frozen):
     )
 
     def attachments(self) -> list[Attachment]:
-        """Return all masses, springs, joints, dashpots, feedback as the beam wants them."""
+        """Return all that is attached as the beam wants it."""
         tables: tuple[
-            PointMassTable | SpringTable | JointTable | DashpotTable | PointFeedbackTable, ...
+            PointMassTable
+            | SpringTable
+            | PedestalTable
+            | JointTable
+            | DashpotTable
+            | PointFeedbackTable,
+            ...,
         ] = (
             *self.point_masses,
             *self.springs,
+            *self.pedestals,
             *self.joints,
             *self.dashpots,
             *self.point_feedbacks,

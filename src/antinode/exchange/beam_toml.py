@@ -14,7 +14,15 @@ from typing import Any
 import numpy as np
 
 from antinode.arrays import Array
-from antinode.beam.attachments import Attachment, Dashpot, Joint, PointFeedback, PointMass, Spring
+from antinode.beam.attachments import (
+    Attachment,
+    Dashpot,
+    Joint,
+    Pedestal,
+    PointFeedback,
+    PointMass,
+    Spring,
+)
 from antinode.beam.axial import AxialLoads, apply_loads
 from antinode.beam.beam import Beam
 from antinode.beam.families import LONGITUDINAL
@@ -33,6 +41,7 @@ KINDS: dict[type[Attachment], str] = {
     Spring: "springs",
     Joint: "joints",
     Dashpot: "dashpots",
+    Pedestal: "pedestals",
     PointFeedback: "point_feedbacks",
 }
 """Tables of what is attached, by their class."""

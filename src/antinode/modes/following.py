@@ -169,7 +169,7 @@ def _freed(found: list[Eigenvalue]) -> list[Eigenvalue]:
 def translates_freely(chain: Chain) -> bool:
     """Tell whether nothing holds the displacement of a chain."""
     ends = any(0 in chain.law.ends[end] for end in (chain.left, chain.right))
-    points = any(p.spring or p.coupling or 0 in p.holds for p in chain.points)
+    points = any(p.static_spring or p.coupling or 0 in p.holds for p in chain.points)
     return not (ends or points or np.any(chain.columns.get("foundation", 0.0)))
 
 

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from antinode.arrays import Array, Integers
-from antinode.beam.attachments import PointMass
+from antinode.beam.attachments import Pedestal, PointMass
 from antinode.beam.beam import Beam
 from antinode.beam.ends import Ends
 from antinode.beam.families import BENDING, FAMILIES, FamilyName
@@ -68,7 +68,12 @@ def turns_freely(beam: Beam, name: FamilyName) -> bool:
         isinstance(item, PointMass) and item.offset for item in beam.attachments
     )
     off = float(np.max(np.abs(N - own)))
-    return off <= _ROUNDING * max(float(np.max(np.abs(N))), _turning_size(beam)) and through_centres
+    hung = any(isinstance(item, Pedestal) for item in beam.attachments)
+    return (
+        not hung
+        and off <= _ROUNDING * max(float(np.max(np.abs(N))), _turning_size(beam))
+        and through_centres
+    )
 
 
 def _turning_size(beam: Beam) -> float:
@@ -118,7 +123,7 @@ def _node_at(pivot: float, nodes: Array, points: Sequence[Point]) -> Point | Non
     """Return what holds a beam at a node, not on an arm."""
     for point in points:
         near = abs(nodes[point.node] - pivot) < _NEAR * nodes[-1]
-        if near and (point.spring or 0 in point.holds) and not point.coupling:
+        if near and (point.static_spring or 0 in point.holds) and not point.coupling:
             return point
     return None
 
@@ -149,6 +154,7 @@ def rotary_inertia(chain: Chain, about: float) -> float:
     inertia = dm @ ((middle - about) ** 2 + chain.length**2 / 12)
     for p in chain.points:
         inertia += p.mass * (nodes[p.node] + p.offset - about) ** 2 + p.inertia
+        inertia += p.hung * (nodes[p.node] - about) ** 2
     return float(inertia)
 
 
@@ -169,7 +175,7 @@ def rigid_motion(beam: Beam, chain: Chain, name: str) -> tuple[float, float]:
     holding = _node_at(pivot, chain.nodes, chain.points)
     if holding is not None and not holding.holds:  # a spring gives way to what it takes
         left, right = chain.following
-        pivot += (right - left) / holding.spring
+        pivot += (right - left) / holding.static_spring
     return -pivot, 1.0
 
 
@@ -189,8 +195,8 @@ def centre_of_mass(chain: Chain) -> float:
     """Return the centre of all mass of a chain, from its left end [m]."""
     nodes = chain.nodes
     middle, dm = (nodes[1:] + nodes[:-1]) / 2, chain.mass * chain.length
-    masses = np.array([p.mass for p in chain.points])
-    places = np.array([nodes[p.node] + p.offset for p in chain.points])
+    masses = np.array([m for p in chain.points for m in (p.mass, p.hung)])
+    places = np.array([x for p in chain.points for x in (nodes[p.node] + p.offset, nodes[p.node])])
     return float((dm @ middle + masses @ places) / (np.sum(dm) + np.sum(masses)))
 
 

@@ -11,7 +11,8 @@ Counting (Wittrick and Williams, 1971): with ``P = [[0, -1], [1, 0]]`` the dynam
 that lies left of a joint is ``K = P S``, symmetric. The number of eigenvalues below omega^2 is the
 number of negative eigenvalues met when the joints are condensed from left to right. Short segments
 are first multiplied into blocks which, clamped at both ends, have no eigenvalue below omega^2, so
-that no further term is needed; long ones are split. With ``D`` the stiffness of a joint when the
+that no further term is needed, but for one of each pedestal above its pole, where its mass moves
+while the beam stands still; long ones are split. With ``D`` the stiffness of a joint when the
 next one is held, ``A_i^T D A_i = A_i^T P U12^-1 A_i+1``: determinant and trace of the right-hand
 side tell its inertia without dividing by anything that can vanish.
 """
@@ -34,10 +35,12 @@ from .frames import (
     inverse_upper,
     orthonormalise,
     pass_off_centre,
+    pass_pedestal,
+    pull,
     turning,
 )
 from .laws import Columns, Law, LawName, Units
-from .points import Point, StepKind
+from .points import Pedestal, Point, StepKind
 from .segment import LONGEST_STEP
 
 _LARGEST_STACK = 4_000_000  # matrix entries held at once
@@ -262,6 +265,8 @@ class Steps(NamedTuple):
     symplectic: Array
     off_centre: dict[int, tuple[Array, Array]]
     """Of a step with a mass off its node: how far off, scaled, and the step without that mass."""
+    pedestals: dict[int, tuple[Array, Array]]
+    """Of a step through a pedestal: numerator and denominator of its stiffness, scaled."""
 
     def reversed(self) -> Steps:
         """Return the steps as the sweep from the right end passes them."""
@@ -272,30 +277,53 @@ class Steps(NamedTuple):
             return np.asarray(-J @ np.swapaxes(U, -1, -2) @ J)
 
         off = {last - i: (arm, inverse(own)) for i, (arm, own) in self.off_centre.items()}
-        return Steps(inverse(self.U)[::-1], self.kind[::-1], self.holds[::-1], J, off)
+        pedestals = {last - i: (-n, g) for i, (n, g) in self.pedestals.items()}
+        return Steps(inverse(self.U)[::-1], self.kind[::-1], self.holds[::-1], J, off, pedestals)
+
+    @property
+    def poles_below(self) -> Array:
+        """How many pedestals have omega^2 above their pole, shape (lanes,)."""
+        above = [np.real(g) < 0 for _, g in self.pedestals.values()]
+        return np.sum(above, axis=0, dtype=np.int64) if above else np.zeros(self.U.shape[1], int)
 
 
 def make_steps(chain: Chain, omega2: Array, blocks: Array, starts: Integers) -> Steps:
     """Put the points of a chain between its blocks."""
     J = chain.law.symplectic
     if not chain.points:
-        return Steps(blocks, ["block"] * len(blocks), [()] * len(blocks), J, {})
+        return Steps(blocks, ["block"] * len(blocks), [()] * len(blocks), J, {}, {})
     units = state_units(chain, omega2)
     at = {point.node: point for point in chain.points}
     steps: list[tuple[StepKind, Array, tuple[int, ...]]] = []
     off: dict[int, tuple[Array, Array]] = {}
+    pedestals: dict[int, tuple[Array, Array]] = {}
     for k, node in enumerate([*starts.tolist(), len(chain.length)]):
         if node in at:
-            point, own = at[node], replace(at[node], mass=0.0)
+            point, own = at[node], replace(at[node], mass=0.0, pedestal=None)
             if point.mass and point.offset:
                 arm = point.offset * units[:, 1] / units[:, 0]
                 place = len(steps) + bool(point.holds)
                 off[place] = arm, _scaled(chain.law.load(own, omega2), units)
-            steps += point_steps(chain.law, point, omega2, units)
+            steps += point_steps(chain.law, replace(point, pedestal=None), omega2, units)
+            if point.pedestal is not None:
+                own_step = len(steps) - bool(point.compliance)
+                pedestals[own_step] = _pedestal(point.pedestal, omega2, units)
+                steps.insert(own_step, ("pedestal", _unit(chain.law, len(omega2)), ()))
         if k < len(blocks):
             steps.append(("block", blocks[k], ()))
     kinds, matrices, holds = zip(*steps, strict=True)
-    return Steps(np.stack(matrices), list(kinds), list(holds), J, off)
+    return Steps(np.stack(matrices), list(kinds), list(holds), J, off, pedestals)
+
+
+def _unit(law: Law, lanes: int) -> Array:
+    return np.broadcast_to(np.eye(law.size), (lanes, law.size, law.size))
+
+
+def _pedestal(pedestal: Pedestal, omega2: Array, units: Array) -> tuple[Array, Array]:
+    """Return numerator and denominator of a pedestal's stiffness in the units of the states."""
+    numerator, denominator = pedestal.parts(omega2)
+    size = np.hypot(pedestal.upper + pedestal.lower, np.abs(pedestal.mass * omega2))
+    return numerator / size * units[:, 0] / units[:, -1], denominator / size
 
 
 def point_steps(
@@ -311,8 +339,7 @@ def point_steps(
     """
     steps: list[tuple[StepKind, Array, tuple[int, ...]]] = []
     if point.holds:
-        unit = np.broadcast_to(np.eye(law.size), (len(omega2), law.size, law.size))
-        steps.append(("support", unit, point.holds))
+        steps.append(("support", _unit(law, len(omega2)), point.holds))
     if point.loads:
         steps.append(("load", _scaled(law.load(point, omega2), units), ()))
     if point.compliance:
@@ -350,6 +377,13 @@ def sweep(steps: Steps, start: Array) -> Sweep:
         if rows:
             F[i + 1], held[i + 1], cut = hold(F[i], rows)
             factor = factor * cut
+        elif i in steps.pedestals:
+            above, below = steps.pedestals[i]
+            if np.iscomplexobj(below):
+                F[i + 1], R[i + 1] = orthonormalise(pull(F[i], above / below))
+                continue
+            F[i + 1], held[i + 1] = pass_pedestal(F[i], above, below)
+            factor = np.where(below < 0, -factor, factor)
         elif i in steps.off_centre and not np.iscomplexobj(F):
             F[i + 1], held[i + 1] = pass_off_centre(F[i], U, *steps.off_centre[i])
         else:
@@ -398,14 +432,16 @@ def characteristic(chain: Chain, F: Array, units: Array) -> Array:
 def negative_at_nodes(law: Law, steps: Steps, frames: Sweep) -> Integers:
     """Count the negative eigenvalues met while the nodes are condensed, shape (lanes,)."""
     kind, sign = np.array(steps.kind), displacement_sign(frames.F, law.behind)
-    for load in np.flatnonzero(kind == "load"):  # leaves A as it is, but for rounding
+    for load in np.flatnonzero((kind == "load") | (kind == "pedestal")):
+        # leaves A as it is, but for rounding
         sign[load + 1] = sign[load]
     changes = sign[:-1] * sign[1:] < 0
     block = np.flatnonzero(kind == "block")
     in_blocks = law.negative_in_blocks(
         steps.U[block], frames.F[block], frames.F[block + 1], frames.R[block + 1], changes[block]
     )
-    return np.asarray(in_blocks + np.sum(changes[kind == "joint"], axis=0), dtype=np.int64)
+    at_joints = np.sum(changes[kind == "joint"], axis=0)
+    return np.asarray(in_blocks + at_joints + steps.poles_below, dtype=np.int64)
 
 
 class Evaluation(NamedTuple):

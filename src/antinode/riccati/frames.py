@@ -137,6 +137,48 @@ def pass_off_centre(F: Array, U: Array, arm: Array, own: Array) -> tuple[Array, 
     return new, turn @ inverse_upper(R)
 
 
+def pull(F: Array, spring: Array) -> Array:
+    """Return a lateral frame behind a spring in the units of the states, shape (k,)."""
+    new = F.copy()
+    new[:, -1] -= spring[:, None] * F[:, 0]
+    return new
+
+
+def pass_pedestal(F: Array, numerator: Array, denominator: Array) -> tuple[Array, Array]:
+    """Pass a real lateral frame through a spring ``numerator/denominator``, perhaps infinite.
+
+    What it pulls, R, is an unknown beside the two coefficients c of the frame: new states are
+    ``F c - e_Q R`` with ``denominator R = numerator Y c``, a plane whatever the two numbers are.
+    Its basis keeps the orientation of c.
+
+    Parameters
+    ----------
+    F : array, shape (k, 4, 2)
+    numerator, denominator : array, shape (k,)
+        In the units of the states.
+
+    Returns
+    -------
+    F : array, shape (k, 4, 2)
+    back : array, shape (k, 2, 2)
+        Coefficients on the left are these times those on the right.
+    """
+    a = -numerator[:, None] * F[:, 0]
+    size = np.sqrt(np.sum(a**2, axis=-1) + denominator**2)
+    size = np.where(size > 0, size, 1.0)
+    p, g = a / size[:, None], denominator / size
+    rho = np.hypot(p[:, 0], p[:, 1])
+    first, second = np.where(rho > 0, p.T / np.where(rho > 0, rho, 1.0), np.array([[0.0], [1.0]]))
+    sign = np.where(g < 0, -1.0, 1.0)
+    none, across = np.zeros(len(g)), np.where(rho > 0, rho, 0.0)
+    N = np.stack([second * sign, -first * sign, none, g * first, g * second, -across], axis=-1)
+    N = np.swapaxes(N.reshape(-1, 2, 3), -1, -2)
+    new = F @ N[:, :2]
+    new[:, -1] -= N[:, 2]
+    Q, R = orthonormalise(new)
+    return Q, N[:, :2] @ inverse_upper(R)
+
+
 def displacement_sign(F: Array, behind: float) -> Array:
     """Return what changes its sign where a state of the frame has no displacement.
 

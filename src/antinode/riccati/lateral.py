@@ -261,9 +261,11 @@ class Lateral(Law):
             "axial force": s * Q2 - shear - (N + work) * psi2,
         }
 
-    def point_energies(self, point: Point, state: Array, last: bool) -> tuple[Array, Array]:
-        """Return those of a rigid mass, springs and a joint that turns."""
-        return lateral_energies(point, state, last)
+    def point_energies(
+        self, point: Point, state: Array, last: bool, moved: Array | float = 0.0
+    ) -> tuple[Array, Array]:
+        """Return those of a rigid mass, springs, a pedestal and a joint that turns."""
+        return lateral_energies(point, state, last, moved)
 
 
 _SHARE = 0.1

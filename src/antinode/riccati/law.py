@@ -231,8 +231,13 @@ class Law(ABC):
         """
 
     @abstractmethod
-    def point_energies(self, point: Point, state: Array, last: bool) -> tuple[Array, Array]:
-        """Return a point's shares of modal mass and stiffness, from states (k, s) on its right."""
+    def point_energies(
+        self, point: Point, state: Array, last: bool, moved: Array | float = 0.0
+    ) -> tuple[Array, Array]:
+        """Return a point's shares of modal mass and stiffness, from states (k, s) on its right.
+
+        `moved` is the displacement of the mass of its pedestal, shape (k,).
+        """
 
 
 def softest(columns: Columns, starts: Integers) -> dict[str, Array]:

@@ -35,6 +35,10 @@ def _all_steps(fine: Chain, lanes: Array) -> Array:
         raise CountingError(
             "a support inside the span has no transfer matrix; use the default method"
         )
+    if steps.pedestals:
+        raise CountingError(
+            "a mass between two springs has a stiffness with a pole; use the default method"
+        )
     return steps.U
 
 

@@ -13,6 +13,11 @@ A feedback of the node's own motion, whose matrix K need not be symmetric (row Y
 
     Q+ = Q- - K_YY Y - K_Yt theta,   M+ = M- + K_tY Y + K_tt theta
 
+A pedestal, a mass m between a spring k_1 to the node and a spring k_2 to the ground, moves sideways
+by ``x = k_1 Y/(k_1 + k_2 - m omega^2)`` and acts as a spring that depends on omega^2::
+
+    Q+ = Q- - K Y,   K = k_1 (k_2 - m omega^2)/(k_1 + k_2 - m omega^2)
+
 and along one freedom u with the force s K u' (s is -1 for a bar, 1 for a shaft)
 ``F+ = F- - s (omega^2 m_p u - k u)``, ``u+ = u- + s f F``. A support (an infinite spring) holds a
 displacement at zero and leaves the conjugate force free to jump.
@@ -21,13 +26,53 @@ displacement at zero and leaves the conjugate force free to jump.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from .arrays import Array, Complex
 
-StepKind = Literal["block", "load", "support", "joint"]
+StepKind = Literal["block", "load", "support", "joint", "pedestal"]
+
+
+class Pedestal(NamedTuple):
+    """A mass between a spring to a node and one to the ground, both across the beam.
+
+    Attributes
+    ----------
+    mass : float
+        m [kg].
+    upper, lower : float
+        k_1, to the node, and k_2, to the ground [N/m].
+    """
+
+    mass: float
+    upper: float
+    lower: float
+
+    @property
+    def pole(self) -> float:
+        """omega^2 of the mass while the node stands still [rad^2/s^2]."""
+        return (self.upper + self.lower) / self.mass
+
+    def parts(self, omega2: Any) -> tuple[Any, Any]:
+        """Return numerator [N^2/m^2] and denominator [N/m] of K."""
+        inertia = self.mass * omega2
+        return self.upper * (self.lower - inertia), self.upper + self.lower - inertia
+
+    def stiffness(self, omega2: Any) -> Any:
+        """Return K(omega^2) [N/m]; at its pole as large as next to it."""
+        above, below = self.parts(omega2)
+        return above / np.where(below == 0, _NEAR_POLE * (self.upper + self.lower), below)
+
+    def moved(self, omega2: Any) -> Any:
+        """Return how far the mass moves where the node moves by one [-]."""
+        below = self.parts(omega2)[1]
+        total = self.upper + self.lower
+        return self.upper / np.where(below == 0, _NEAR_POLE * total, below)
+
+
+_NEAR_POLE = 1e-16
 
 
 @dataclass(frozen=True)
@@ -59,6 +104,8 @@ class Point:
         K_Yt is not K_tY the problem is not self-adjoint, and counts do not know it.
     feedback_damping : tuple of float, optional
         The same for velocities [N s/m, N s, N s, N m s].
+    pedestal : Pedestal, optional
+        That the node stands on, or that hangs on it; sideways alone.
     """
 
     node: int
@@ -75,6 +122,7 @@ class Point:
     rotational_dashpot: float = 0.0
     feedback: tuple[float, float, float, float] | None = None
     feedback_damping: tuple[float, float, float, float] | None = None
+    pedestal: Pedestal | None = None
 
     @property
     def feeds_back(self) -> bool:
@@ -99,11 +147,23 @@ class Point:
         )
 
     @property
+    def static_spring(self) -> float:
+        """What holds the displacement at rest [N/m]: the spring, and a pedestal on the ground."""
+        own = self.pedestal
+        return self.spring + (0.0 if own is None else float(own.stiffness(0.0)))
+
+    @property
+    def hung(self) -> float:
+        """Mass that hangs on a spring and moves along with a rigid motion [kg]."""
+        own = self.pedestal
+        return own.mass if own is not None and own.lower == 0 else 0.0
+
+    @property
     def loads(self) -> bool:
         """Whether a mass or a finite spring acts here."""
         springs = (self.spring, self.rotational_spring, self.coupling)
         values = (self.mass, self.inertia, *springs)
-        return any(value != 0.0 for value in values)
+        return self.pedestal is not None or any(value != 0.0 for value in values)
 
 
 def lateral_load(point: Point, omega2: Array) -> Array:
@@ -111,6 +171,8 @@ def lateral_load(point: Point, omega2: Array) -> Array:
     T = np.tile(np.eye(4, dtype=np.result_type(omega2, 1.0)), (len(omega2), 1, 1))
     m, d, J = point.mass, point.offset, point.inertia
     T[:, 3, 0] = omega2 * m - point.spring
+    if point.pedestal is not None:
+        T[:, 3, 0] -= point.pedestal.stiffness(omega2)
     T[:, 3, 1] = omega2 * m * d - point.coupling
     T[:, 2, 0] = -omega2 * m * d + point.coupling
     T[:, 2, 1] = -omega2 * (m * d * d + J) + point.rotational_spring + point.own_load * d
@@ -130,20 +192,34 @@ def lateral_joint(point: Point, lanes: int) -> Array:
     return T
 
 
-def lateral_energies(point: Point, state: Array, last: bool) -> tuple[Array, Array]:
+def lateral_energies(
+    point: Point, state: Array, last: bool, moved: Array | float = 0.0
+) -> tuple[Array, Array]:
     """Return a point's shares of modal mass and stiffness in bending.
 
     Parameters
     ----------
     state : array, shape (k, 4)
         On its right side, where a joint has turned already; at the `last` node on its left.
+    moved : array, shape (k,), optional
+        Of the mass of a pedestal.
     """
     Y, theta, M, _ = state.T
     turn = theta if last else theta - point.compliance * M
     inertia = point.mass * (Y + point.offset * turn) ** 2 + point.inertia * turn**2
+    if point.pedestal is not None:
+        x, own = moved, point.pedestal
+        inertia = inertia + own.mass * x**2
+        held = own.upper * (Y - x) ** 2 + own.lower * x**2
+        return inertia, held + _elastic(point, Y, turn, M)
+    return inertia, _elastic(point, Y, turn, M)
+
+
+def _elastic(point: Point, Y: Array, turn: Array, M: Array) -> Array:
+    """Return what springs and joint store, twice."""
     rotational = point.rotational_spring + point.own_load * point.offset
     springs = point.spring * Y**2 + 2 * point.coupling * Y * turn + rotational * turn**2
-    return inertia, springs + point.compliance * M**2
+    return np.asarray(springs + point.compliance * M**2)
 
 
 def wave_load(point: Point, omega2: Array, sign: float) -> Array:

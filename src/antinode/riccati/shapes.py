@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from typing import NamedTuple
 
@@ -32,6 +33,7 @@ from .chain import (
     sweep,
 )
 from .laws import Squares
+from .points import Point
 
 _CANDIDATE_NODES = 12  # matching nodes tried for a cluster of modes
 
@@ -303,7 +305,7 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> Energies:
     states : array, shape (n + 1, k, s)
     omega2 : array, shape (k,)
     """
-    return energies(chain, states, integrate_squares(chain, states, omega2))
+    return energies(chain, states, integrate_squares(chain, states, omega2), omega2)
 
 
 def energies_between(
@@ -327,16 +329,61 @@ def energies_between(
     return Energies(squares, mass, stiffness, np.abs(plus.size + minus.size) / 4)
 
 
-def energies(chain: Chain, states: Array, squares: Squares) -> Energies:
+def energies(
+    chain: Chain, states: Array, squares: Squares, omega2: Array | float = 0.0
+) -> Energies:
     """Return modal mass and stiffness from the integrals over the segments, and the points."""
     mass, strain, work, size = chain.law.forms(chain.columns, squares)
     reach = np.max(np.abs(states[:, :, 0]), axis=0)
+    moved = moved_masses(chain, states, omega2)
     for point in chain.points:
         last = point.node == len(states) - 1
-        inertia, elastic = chain.law.point_energies(point, states[point.node], last)
+        inertia, elastic = chain.law.point_energies(
+            point, states[point.node], last, moved.get(point.node, 0.0)
+        )
         mass, strain, size = mass + inertia, strain + elastic, size + np.abs(elastic)
         size = size + point.spring * np.abs(states[point.node][:, 0]) * reach
     return Energies(squares, mass, strain - work, size)
+
+
+def moved_masses(chain: Chain, states: Array, omega2: Array | float) -> dict[int, Array]:
+    """Return how far the masses of pedestals move, (k,) each by node.
+
+    That is ``k_1 Y/(k_1 + k_2 - m omega^2)``; near that pole, where Y all but vanishes, what the
+    upper spring pulls by the step of Q tells it.
+    """
+    found = {}
+    lanes = np.broadcast_to(np.asarray(omega2), states.shape[1:2])
+    for point in chain.points:
+        own = point.pedestal
+        if own is None:
+            continue
+        Y = states[point.node][:, 0]
+        x = own.moved(lanes) * Y
+        near = np.abs(lanes - own.pole) < NEAR_POLE * own.pole
+        if near.any() and not chain.follows:
+            x = np.where(near, Y - _pulled(chain, states, lanes, point) / own.upper, x)
+        found[point.node] = np.asarray(x)
+    return found
+
+
+NEAR_POLE = 1e-4  # of omega^2
+"""How near frames through a pedestal want an unknown of their own."""
+
+
+def _pulled(chain: Chain, states: Array, omega2: Array, point: Point) -> Array:
+    """Return the force with which a pedestal pulls the beam down [N], (k,)."""
+    node, law, last = point.node, chain.law, len(states) - 1
+    own = law.load(replace(point, pedestal=None), omega2)
+    if node == 0:
+        before = np.zeros_like(states[0])
+        before[:, :2], before[:, -1] = states[0][:, :2], 0.0
+        before[:, 1] -= point.compliance * states[0][:, 2]
+    else:
+        here = slice(node - 1, node)
+        before = propagate(chain, states[here], omega2, chain.length[here], here)[0]
+    after = np.zeros(len(omega2)) if node == last else states[node][:, -1]
+    return np.asarray(np.einsum("ks,ks->k", own[:, -1], before) - after)
 
 
 def integrate_squares(chain: Chain, states: Array, omega2: Array) -> Squares:

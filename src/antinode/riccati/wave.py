@@ -104,6 +104,8 @@ class Wave(Law):
         mass, stiffness = columns["mass"][:, None], columns["stiffness"][:, None]
         return {"kinetic": omega2 * mass * u2, self.name: F2 / stiffness}
 
-    def point_energies(self, point: Point, state: Array, last: bool) -> tuple[Array, Array]:
+    def point_energies(
+        self, point: Point, state: Array, last: bool, moved: Array | float = 0.0
+    ) -> tuple[Array, Array]:
         """Return those of a mass, a spring and a joint."""
         return wave_energies(point, state, last, self.sign)

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from antinode.arguments import numbers, within
-from antinode.beam.attachments import refuse_feedback
+from antinode.beam.attachments import refuse_feedback, refuse_pedestals
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
@@ -81,6 +81,7 @@ def stability(
     tolerance = within("tolerance", tolerance, 1e-12, 0.1)
     most = None if largest is None else _largest(largest)
     refuse_feedback(beam.attachments, BENDING, "critical loads")
+    refuse_pedestals(beam.attachments, "critical loads along a factor")
     if beam.is_unloaded:
         raise InputError(
             f"{beam.name}: there is no axial force, so a factor on it changes nothing; give "

@@ -10,7 +10,16 @@ from typing import TypeVar
 import numpy as np
 
 from antinode.arrays import Array, Integers
-from antinode.beam.attachments import Attachment, Dashpot, Joint, PointFeedback, PointMass, Spring
+from antinode.beam.attachments import (
+    Attachment,
+    Dashpot,
+    Joint,
+    Pedestal,
+    PointFeedback,
+    PointMass,
+    Spring,
+    refuse_pedestals,
+)
 from antinode.beam.beam import Beam
 from antinode.beam.ends import AxialEnd, Ends
 from antinode.beam.families import BENDING, FAMILIES, LONGITUDINAL, TORSION, tells
@@ -209,7 +218,7 @@ def _along(item: Attachment) -> Attachment:
         return Spring(item.x, axial=item.torsional)
     if isinstance(item, Dashpot):
         return Dashpot(item.x, axial=item.torsional)
-    if isinstance(item, PointFeedback):
+    if isinstance(item, PointFeedback | Pedestal):
         return Dashpot(item.x)
     return Joint(item.x, axial=item.torsional)
 
@@ -220,6 +229,7 @@ def mesh_of(beam: Beam, count: int, *, twists: bool = False, factor: float = 1.0
     Elements take N and shear by Engesser. By Haringx that is a kGA larger by N, which `factor`
     multiplies.
     """
+    refuse_pedestals(beam.attachments, "decks")
     pieces = np.ceil(np.diff(beam.x) / beam.length * count - 1e-9).astype(int).clip(1)
     k = np.repeat(np.arange(len(pieces)), pieces)
     within = np.concatenate([np.arange(n) for n in pieces])

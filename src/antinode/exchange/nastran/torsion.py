@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from antinode.arrays import Array
-from antinode.beam.attachments import Attachment, Joint, PointFeedback, PointMass, Spring
+from antinode.beam.attachments import Attachment, Joint, Pedestal, PointFeedback, PointMass, Spring
 
 from .line import SAME, Line
 from .lumped import INERTIA
@@ -51,4 +51,4 @@ def _bare(item: Attachment) -> Attachment:
         return replace(item, polar_inertia=0.0)
     if isinstance(item, Spring):
         return replace(item, torsional=0.0)
-    return item if isinstance(item, PointFeedback) else replace(item, torsional=0.0)
+    return item if isinstance(item, PointFeedback | Pedestal) else replace(item, torsional=0.0)

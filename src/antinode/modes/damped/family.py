@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from antinode.arrays import Array, Complex
+from antinode.beam.attachments import refuse_pedestals
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FamilyName
 from antinode.beam.representation import make_chain
@@ -62,6 +63,7 @@ def solve_damped(
     lossy : bool
         Whether the beam's loss factors count.
     """
+    refuse_pedestals(beam.attachments, "complex modes")
     lossy = lossy and beam.loss_factor is not None and bool(np.any(beam.loss_factor))
     scales = beam.is_unloaded or not beam.has_shear or beam.shear_form == "haringx"
     levels: list[tuple[ComplexRoots, Chain]] = []
@@ -96,6 +98,7 @@ def solve_damped(
 
 def on_chain(beam: Beam, chain: Chain, modes: int, backend: Backend) -> ComplexRoots:
     """Return the complex eigenvalues of one chain of a beam, without dampers and loss."""
+    refuse_pedestals(beam.attachments, "complex modes")
     damped = Damped(without_dashpots(chain))
     return _roots(damped, at_rest(beam, damped), modes, backend, scales=True)
 
@@ -107,6 +110,7 @@ def on_refinement(
 
     Their errors are those of the chain alone. `dampers` says whether dashpots and losses count.
     """
+    refuse_pedestals(beam.attachments, "complex modes")
     chain = beam.chain(BENDING, refinement)
     lossy = dampers and beam.loss_factor is not None and bool(np.any(beam.loss_factor))
     columns = make_chain(beam, BENDING, refinement, 0.0).columns if lossy else None

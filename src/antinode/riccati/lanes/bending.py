@@ -32,6 +32,7 @@ from .workspace import (
     INERTIA,
     LANES,
     LENGTH,
+    LOWER,
     MASS,
     OMEGA2,
     POWER,
@@ -45,7 +46,9 @@ from .workspace import (
     SERIES_2,
     SERIES_3,
     SPRING,
+    SPRUNG,
     TURNING,
+    UPPER,
     A,
     B,
     D,
@@ -140,6 +143,16 @@ def pass_point(point, state, sign):
         moment, coupling = omega2 * point[FIRST_MOMENT], point[COUPLING]
         across = moment - coupling
         along = omega2 * point[MASS] - point[SPRING]
+        if point[SPRUNG] != 0.0:
+            # its stiffness is n/g: all minors times g, which changes its sign at the pole
+            inertia, springs = omega2 * point[SPRUNG], point[UPPER] + point[LOWER]
+            size = 1.0 / math.sqrt(springs * springs + inertia * inertia)
+            g = (springs - inertia) * size
+            n = point[UPPER] * (point[LOWER] - inertia) * size
+            state[COUNT + lane] += 1.0 if g < 0.0 else 0.0
+            before = -before if g < 0.0 else before
+            d, f = g * d + n * a, g * f + n * b
+            a, b, e = g * a, g * b, g * e
         turn = point[TURNING] - omega2 * point[ROTARY]
         own = (
             omega2 * point[MASS] * (point[TURNING] - omega2 * point[CENTRAL]) - point[SPRING] * turn

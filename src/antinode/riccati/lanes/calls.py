@@ -80,9 +80,15 @@ def _is_known(chain: Chain) -> bool:
 
 
 def _needs_frames(chain: Chain) -> bool:
-    """Tell whether supports stand where the compiled chain does not know them."""
+    """Tell whether supports stand where the compiled chain does not know them.
+
+    Or pedestals on a chain whose ends follow: its minors know one scale alone.
+    """
     known = range(1, len(chain.length)) if FORMS[chain.law].supports else ()
-    return any(point.holds and point.node not in known for point in chain.points)
+    return any(
+        (point.holds and point.node not in known) or (point.pedestal and chain.follows)
+        for point in chain.points
+    )
 
 
 def solve_chains(

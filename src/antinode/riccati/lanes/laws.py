@@ -13,13 +13,14 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from antinode.riccati.laws import BAR, BENDING, SHAFT, Law
-from antinode.riccati.points import Point
+from antinode.riccati.points import Pedestal, Point
 
 from . import bending, pieces, sheared, wave
 from .compiling import compiled
 from .workspace import HOLDS_THETA, HOLDS_Y, LANES, OMEGA2, POWER, SHEAR_TURN, SHEAR_WORK
 
 _BENDING, _WAVE, _SHEARED = 0, 1, 2
+_NO_PEDESTAL = Pedestal(0.0, 0.0, 0.0)
 
 
 class Form(NamedTuple):
@@ -47,6 +48,7 @@ class Form(NamedTuple):
 
 
 def _bending_point(p: Point, L: float, EI0: float, m0: float) -> tuple[float, ...]:
+    own = p.pedestal or _NO_PEDESTAL
     inertia = p.mass * p.offset**2 + p.inertia
     turning = p.rotational_spring + p.own_load * p.offset if p.loads else 0.0
     return (
@@ -54,12 +56,13 @@ def _bending_point(p: Point, L: float, EI0: float, m0: float) -> tuple[float, ..
         *(p.spring * L**3 / EI0, turning * L / EI0),
         *(float(0 in p.holds), float(1 in p.holds), p.compliance * EI0 / L),
         *(p.inertia / (m0 * L**3), p.coupling * L**2 / EI0),
+        *(own.mass / (m0 * L), own.upper * L**3 / EI0, own.lower * L**3 / EI0),
     )
 
 
 def _wave_point(p: Point, L: float, K0: float, m0: float) -> tuple[float, ...]:
     mass, spring = p.mass / (m0 * L), p.spring * L / K0
-    return mass, 0.0, 0.0, spring, 0.0, 0.0, 0.0, p.compliance * K0 / L, 0.0, 0.0
+    return mass, 0.0, 0.0, spring, 0.0, 0.0, 0.0, p.compliance * K0 / L, *(0.0,) * 5
 
 
 _OF_WAVES = Form(_WAVE, _WAVE, wave.ENDS, _wave_point, supports=False, shapes=False)

@@ -30,15 +30,18 @@ from .workspace import (
     FIRST_MOMENT,
     HOLDS_THETA,
     HOLDS_Y,
+    LOWER,
     MASS,
     MOST_LEVELS,
     PHASE,
     ROTARY,
     SIZE,
     SPRING,
+    SPRUNG,
     START,
     STEEP,
     TURNING,
+    UPPER,
     Chain,
     Task,
 )
@@ -233,6 +236,8 @@ def _scale_points(nodes, L, m0, EI0):
         scaled[SPRING] = point[SPRING] / spring
         scaled[TURNING] = point[TURNING] / (spring * L * L)
         scaled[COUPLING] = point[COUPLING] / (spring * L)
+        scaled[SPRUNG] = point[SPRUNG] / mass
+        scaled[UPPER], scaled[LOWER] = point[UPPER] / spring, point[LOWER] / spring
         scaled[HOLDS_Y], scaled[HOLDS_THETA] = point[HOLDS_Y], point[HOLDS_THETA]
         scaled[COMPLIANCE] = point[COMPLIANCE] / (L / EI0)
 

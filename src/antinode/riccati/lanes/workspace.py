@@ -50,7 +50,9 @@ STATE = 8 * LANES
 MASS, FIRST_MOMENT, ROTARY, SPRING, TURNING, HOLDS_Y, HOLDS_THETA, COMPLIANCE = range(8)
 CENTRAL, COUPLING = range(8, 10)
 """Among them m d, the inertia about the node, and that about the mass's own centre."""
-POINT = 10
+SPRUNG, UPPER, LOWER = range(10, 13)
+"""Mass of a pedestal, 0 without one, and its springs to the node and to the ground."""
+POINT = 13
 
 # Shapes: what stands flat, rows of lanes after rows, for every segment or node.
 SHEAR_OF, TURNING_OF, INERTIA_OF = (row * LANES for row in range(3))
@@ -111,7 +113,7 @@ class Chain(NamedTuple):
     marks: Integers
     """Which point stands at every node, -1 for none, shape (n + 1,)."""
     points: Array
-    """Shape (points, 9)."""
+    """Shape (points, POINT)."""
     more: Array
     """What segments have besides, shape (5, n); (5, 0) where they have nothing."""
     following: Array

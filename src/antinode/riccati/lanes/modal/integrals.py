@@ -19,6 +19,7 @@ from antinode.riccati.lanes.workspace import (
     FORMS_OF,
     GROUND,
     LANES,
+    LOWER,
     MASS,
     PER_UNIT,
     ROTARY_INERTIA,
@@ -26,9 +27,11 @@ from antinode.riccati.lanes.workspace import (
     SHEAR_TURN,
     SHEAR_WORK,
     SPRING,
+    SPRUNG,
     SQUARES,
     TURNING,
     UNIT,
+    UPPER,
 )
 
 from .segments import longest_phase, scale_columns, set_units, step, terms_for, transfer
@@ -149,7 +152,7 @@ def _integrate(chain, omega2, states, rules, phase, room):
 
 
 @compiled
-def _point_energies(marks, points, states, work):
+def _point_energies(marks, points, omega2, states, work):
     """Add the points' shares: `riccati.points.lateral_energies`."""
     last = len(states) - 1
     for i in range(len(states)):
@@ -165,13 +168,17 @@ def _point_energies(marks, points, states, work):
             work[k + _MASS * LANES] += p[MASS] * moved * moved + p[CENTRAL] * turn * turn
             springs = p[SPRING] * Y * Y + 2.0 * p[COUPLING] * Y * turn + p[TURNING] * turn * turn
             elastic = springs + p[COMPLIANCE] * M * M
+            if p[SPRUNG] != 0.0:
+                x = p[UPPER] * Y / (p[UPPER] + p[LOWER] - omega2[lane] * p[SPRUNG])
+                work[k + _MASS * LANES] += p[SPRUNG] * x * x
+                elastic += p[UPPER] * (Y - x) * (Y - x) + p[LOWER] * x * x
             work[k + _STIFFNESS * LANES] += elastic
             reach = p[SPRING] * abs(Y) * work[k + _REACH * LANES]
             work[k + _SIZE * LANES] += abs(elastic) + reach
 
 
 @compiled
-def _sum_up(chain, states, beside, room):
+def _sum_up(chain, omega2, states, beside, room):
     """Set the quadratic forms of modes from the squares: `Lateral.forms`, points included.
 
     `beside` holds rho I and 1/kGA that are left out, whose energies are summed too.
@@ -205,7 +212,7 @@ def _sum_up(chain, states, beside, room):
             k = f + _REACH * LANES + lane
             work[k] = max(work[k], abs(states[i, lane, 0]))
     if len(chain.points) > 0:
-        _point_energies(chain.marks, chain.points, states, work)
+        _point_energies(chain.marks, chain.points, omega2, states, work)
     for lane in range(LANES):
         work[f + _STIFFNESS * LANES + lane] -= work[f + _WORK * LANES + lane]
 
@@ -370,7 +377,7 @@ def _set_forms(chain, omega2, states, pair, beside, rules, phase, room, sums):
     for which in range(max(len(pair), 1)):
         given = pair[which] if len(pair) > 0 else states
         _integrate(chain, omega2, given, rules, phase, room)
-        _sum_up(chain, given, beside, room)
+        _sum_up(chain, omega2, given, beside, room)
         _take(room.work, sums, 1.0 if which == 0 else -1.0)
     if len(pair) > 0:
         _turning_ends(chain.following, pair, sums)

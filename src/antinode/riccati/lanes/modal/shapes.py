@@ -23,14 +23,17 @@ from antinode.riccati.lanes.workspace import (
     FIRST_MOMENT,
     LANES,
     LEAST,
+    LOWER,
     MASS,
     NODE,
     PER_MODE,
     ROTARY,
     SPRING,
+    SPRUNG,
     STARTS,
     TURNING,
     UNIT,
+    UPPER,
     X_OF,
     Y_OF,
 )
@@ -67,12 +70,17 @@ def _pass_point(point, side, work, column):
         omega2, of_Y = work[PER_MODE + lane], work[UNIT + lane]
         of_M, of_Q = work[UNIT + 2 * LANES + lane], work[UNIT + 3 * LANES + lane]
         across = omega2 * moment - coupling
+        pulled = spring
+        if point[SPRUNG] != 0.0:
+            inertia = omega2 * point[SPRUNG]
+            below = point[UPPER] + point[LOWER] - inertia
+            pulled += side * point[UPPER] * (point[LOWER] - inertia) / below
         joint = compliance * of_M
         y, t = column[lane], column[LANES + lane]
         m, s = column[2 * LANES + lane], column[3 * LANES + lane]
         if side < 0.0:
             t -= joint * m
-        s += ((omega2 * mass - spring) * of_Y * y + across * t) / of_Q
+        s += ((omega2 * mass - pulled) * of_Y * y + across * t) / of_Q
         m += ((turning - omega2 * rotary) * t - across * of_Y * y) / of_M
         if side > 0.0:
             t += joint * m

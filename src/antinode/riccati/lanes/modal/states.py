@@ -33,7 +33,8 @@ def mode_states(
     Supports between the ends, clusters, modes that flutter and longitudinal ones are left to the
     readable form.
     """
-    if not (np.iscomplexobj(omega2) or _is_special(chain) or int(multiplicity.max()) > 1):
+    special = np.iscomplexobj(omega2) or _is_special(chain) or int(multiplicity.max()) > 1
+    if not (special or _is_near_a_pole(chain, omega2)):
         found = _states(chain, omega2, adjoint)
         if found is not None:
             return found
@@ -48,6 +49,12 @@ def _is_special(chain: Chain) -> bool:
     """Tell whether a chain is of another law, or has points that are left to the readable form."""
     held = any(p.holds or p.feeds_back or _is_heavy(p, chain) for p in chain.points)
     return held or not _is_known(chain)
+
+
+def _is_near_a_pole(chain: Chain, omega2: Array) -> bool:
+    """Tell whether a pedestal all but holds the beam at one of some omega^2."""
+    poles = [p.pedestal.pole for p in chain.points if p.pedestal is not None]
+    return any(np.min(np.abs(omega2 - pole)) < shapes.NEAR_POLE * pole for pole in poles)
 
 
 def _is_heavy(point: Point, chain: Chain) -> bool:
@@ -123,14 +130,15 @@ def mode_energies(chain: Chain, states: Array, omega2: Array) -> shapes.Energies
         lanes = squares.reshape(n, -1, LANES)[:, :, : len(some)]
         parts.append(lanes.transpose(1, 0, 2).copy())
     total = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=2)
-    return shapes.energies(chain, states, Squares(*total))
+    return shapes.energies(chain, states, Squares(*total), omega2)
 
 
 def normalise(
     chain: Chain, states: Array, omega2: Array, wanted: Wanted, left: Array | None = None
 ) -> Normalised:
     """Return modes scaled as asked: `riccati.normalised.normalise`, compiled."""
-    if not (_is_known(chain) and _is_plainly_real(states)) or len(chain.length) > _MOST_NODES:
+    plain = _is_known(chain) and _is_plainly_real(states) and not _is_near_a_pole(chain, omega2)
+    if not plain or len(chain.length) > _MOST_NODES:
         return normalised.normalise(chain, states, omega2, wanted, left)
     own, parts = in_si(chain), []
     room = scratch.room(len(chain.length))
@@ -157,7 +165,8 @@ def normalise(
 def normal_modes(chain: Chain, omega2: Array, motions: Array, wanted: Wanted) -> Normalised:
     """Return modes that are apart, scaled as asked: `riccati.normalised.normal_modes`, compiled."""
     found = None
-    if not _is_special(chain) and len(chain.length) <= _MOST_NODES:
+    special = _is_special(chain) or _is_near_a_pole(chain, omega2)
+    if not special and len(chain.length) <= _MOST_NODES:
         found = _normal_modes(chain, omega2, motions, wanted)
     if found is not None:
         return found

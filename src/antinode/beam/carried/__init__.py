@@ -1,0 +1,1 @@
+"""What a beam carries, kind by kind."""
