@@ -233,7 +233,7 @@ class Beam(BeamMethods, ByValue):
             and `polar_inertia_per_length`, `shear_stiffness`, `rotary_inertia_per_length`,
             `foundation_stiffness`, `added_mass_per_length`, `loss_factor`, `tangential_load`.
         """
-        if unknown := sorted(columns.keys() - set(TABLES)):
+        if unknown := [name for name in columns if name not in TABLES]:
             raise TypeError(f"a beam has no column {unknown[0]!r}; it may have {', '.join(TABLES)}")
         columns |= {"axial_stiffness": axial_stiffness, "axial_force": axial_force}
         columns |= {"mass_per_length": mass_per_length, "bending_stiffness": bending_stiffness}

@@ -60,7 +60,7 @@ def check(beam: Beam) -> None:
 
 def _check_rising(x: Array) -> None:
     rises = x[1:] > x[:-1]
-    if rises.all() and x[0] > -np.inf and x[-1] < np.inf:
+    if np.count_nonzero(rises) == len(rises) and x[0] > -np.inf and x[-1] < np.inf:
         return
     if not np.isfinite(x).all():
         raise InputError("x: every breakpoint must be a finite number [m]")
@@ -112,7 +112,8 @@ def _check_table(name: str, values: Array, n: int) -> None:
             "for the control values of polynomials"
         )
     least = -np.inf if name in _SIGNED else 0.0
-    if least < values.min() and values.max() < np.inf:  # no NaN: every table may have these
+    lowest, highest = np.minimum.reduce(values, None), np.maximum.reduce(values, None)
+    if least < lowest and highest < np.inf:  # no NaN: every table may have these
         return
     ok = allowed_values(name, values)
     for row, side in () if ok.all() else np.argwhere(~ok)[:1]:

@@ -35,7 +35,11 @@ def kept_intervals(x: Array, how: Interpolation) -> npt.NDArray[np.bool_]:
 
 def breakpoints(x: Array, kept: npt.NDArray[np.bool_]) -> Array:
     """Return the bounds of the intervals of a table that are kept."""
-    return x if kept.all() else np.append(x[:-1][kept], x[-1:])
+    return x if _all(kept) else np.append(x[:-1][kept], x[-1:])
+
+
+def _all(kept: npt.NDArray[np.bool_]) -> bool:
+    return int(np.count_nonzero(kept)) == len(kept)
 
 
 def interval_ends(column: Array, kept: npt.NDArray[np.bool_], how: Interpolation) -> Array:
@@ -43,7 +47,7 @@ def interval_ends(column: Array, kept: npt.NDArray[np.bool_], how: Interpolation
     table = np.empty((len(kept), 2))
     table[:, 0] = column[: len(kept)]
     table[:, 1] = table[:, 0] if how == "step" else column[1:]
-    table = table if how == "step" or kept.all() else table[kept]
+    table = table if how == "step" or _all(kept) else table[kept]
     table.flags.writeable = False
     return table
 

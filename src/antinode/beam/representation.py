@@ -56,7 +56,8 @@ def make_chain(
     if not varies.any():
         columns = {name: np.array(at(np.s_[:], AT_START)) for name, at in values.items()}
         left, right, points = beam.points(family)
-        return Chain(law, np.diff(beam.x), columns, left, right, points, beam.following(family))
+        length = beam.x[1:] - beam.x[:-1]
+        return Chain(law, length, columns, left, right, points, beam.following(family))
     cell, start, size = coarsest_steps(beam, family)
     times = np.where(varies[cell], refinement, 1)
     which, number = copies(times)

@@ -137,7 +137,7 @@ class BeamBatch(ByValue):
         rows, n = _common_shape(tables)
         object.__setattr__(self, "_one_structure", self._varies_by_force(tables))
         for name, values in tables.items():
-            shape = (_rows(values) if name in ("length", *_MORE, *_AVERAGES) else rows, n)
+            shape = (_rows(values) if name in _BY_ITSELF else rows, n)
             if values.shape != shape:
                 same = values.size == shape[0] * n
                 values = values.reshape(shape) if same else np.broadcast_to(values, shape)
@@ -200,6 +200,8 @@ _MORE = (
     "foundation_stiffness",
     "added_mass_per_length",
 )
+_BY_ITSELF = "length", *_MORE, *_AVERAGES
+"""Arrays that may have a single row beside others with one for each beam."""
 
 
 def _rows(values: Array) -> int:
@@ -208,12 +210,11 @@ def _rows(values: Array) -> int:
 
 def _common_shape(tables: dict[str, Array]) -> tuple[int, int]:
     """Return how many beams and segments the arrays of a batch describe."""
-    arrays = tables.values()
-    rows, n = max(map(_rows, arrays)), max(v.shape[-1] if v.ndim else 1 for v in arrays)
-    for name, values in tables.items():
-        columns = values.shape[-1] if values.ndim else 1
+    sizes = [(_rows(values), values.shape[-1] if values.ndim else 1) for values in tables.values()]
+    rows, n = map(max, zip(*sizes, strict=True))
+    for (name, values), (own, columns) in zip(tables.items(), sizes, strict=True):
         apart = columns not in (1, n) or (name == "length" and values.ndim and columns != n)
-        if values.ndim > 2 or _rows(values) not in (1, rows) or apart or not n:
+        if values.ndim > 2 or own not in (1, rows) or apart or not n:
             told = ", ".join(f"{key} {v.shape}" for key, v in tables.items())
             raise InputError(
                 "the arrays of a batch have shapes (segments,) or (beams, segments); "
@@ -298,15 +299,20 @@ def solve_many(
     found = _solve(solver, batch, width)
     omega2, low, high, counts, rounding, reason, evaluations = found
     pairs: Growing = {}
-    if reason.any() or not (omega2[:, 0].min() >= 0.0 and np.isfinite(high).all()):
+    steady = not np.count_nonzero(reason) and omega2.min() >= 0.0 and np.isfinite(high).all()
+    if not steady:
         pairs = _settle(solver, batch, width, found)
     bracket = np.empty((*omega2.shape, 2))
     low = np.subtract(low, rounding, out=bracket[..., 0])
     high = np.add(high, rounding, out=bracket[..., 1])
-    if (low[:, 1:] <= high[:, :-1]).any():
+    if np.count_nonzero(low[:, 1:] <= high[:, :-1]):
         for row in np.flatnonzero(np.any(low[:, 1:] <= high[:, :-1], axis=1)):
             share_brackets(low[row], high[row], counts[row])
-    omega2, error = settled(omega2, np.maximum(high - omega2, omega2 - low))
+    error = np.maximum(high - omega2, omega2 - low)
+    if steady:
+        growth = np.full(omega2.shape, np.nan)
+        return BatchResult(omega2, bracket, counts, error, reason, evaluations, growth)
+    omega2, error = settled(omega2, error)
     reason[(reason == PAST_BUCKLING) & (omega2[:, 0] >= 0)] = 0
     growth = growth_rate(omega2)
     for beam, rates in pairs.items():
@@ -383,11 +389,11 @@ def _chains(batch: BeamBatch) -> Chains:
 
 def _following(batch: BeamBatch, N: Array) -> Array | None:
     """Return what turns with the ends of every beam [N], None where nothing does."""
-    shares = np.array(batch.ends.follow)
+    shares = batch.ends.follow
     if not FAMILIES[batch.family].law.has_axial_force:
         return None
     if batch.following is None:
-        return np.ascontiguousarray(shares * N[:, [0, -1]]) if shares.any() else None
+        return np.ascontiguousarray(np.array(shares) * N[:, [0, -1]]) if any(shares) else None
     return np.ascontiguousarray(np.broadcast_to(batch.following, (len(N), 2)), dtype=float)
 
 

@@ -197,7 +197,7 @@ def _reach(bracket: Array, omega2: Array, counts: Integers) -> None:
     low, high = bracket[:, 0], bracket[:, 1]
     np.minimum(low, omega2, out=low)
     np.maximum(high, omega2, out=high)
-    if (low[1:] <= high[:-1]).any():
+    if np.count_nonzero(low[1:] <= high[:-1]):
         share_brackets(low, high, counts)
 
 

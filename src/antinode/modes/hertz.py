@@ -78,7 +78,7 @@ def settled(omega2: float | Array, error: float | Array) -> tuple[Any, Any]:
     if isinstance(omega2, float | int):
         return (0.0, error - omega2) if 0 > omega2 >= -error else (omega2, error)
     below: Any = omega2 < 0
-    if not below.any():
+    if not np.count_nonzero(below):
         return omega2, error
     unknown = below & (omega2 >= -error)
     return np.where(unknown, 0.0, omega2), np.where(unknown, error - omega2, error)

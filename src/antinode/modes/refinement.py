@@ -147,7 +147,7 @@ def solve_family(
     def solve(chain: Chain, expected: Array | None = None) -> Found:
         return counting.find(chain, wanted, zeros=zeros, expected=expected)
 
-    if not np.any(beam.varies(family)):
+    if not beam.varies(family).any():
         chain = beam.chain(family)
         found = solve(chain)
         error, warnings = np.zeros(len(found.eigenvalues)), list[str]()

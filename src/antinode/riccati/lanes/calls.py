@@ -114,7 +114,7 @@ def solve_chains(
     given, ends, n = _whole(chains), _ends(chains), chains.length.shape[1]
     own, found = _own(chains), ChainRoots.empty(len(chains), number)
     warmth = Warmth(
-        neighbour=np.full(1, -1),
+        neighbour=np.array([-1]),
         omega2=np.zeros(number),
         slope=np.zeros(number),
         weights=_weights(chains, below, number),
