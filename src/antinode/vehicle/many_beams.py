@@ -56,6 +56,11 @@ class Chains:
     more: Mapping[str, Array] = field(default_factory=dict)
     following: Array | None = None
 
+    def __post_init__(self) -> None:
+        tables = self.length, self.mass, self.stiffness, self.axial_force
+        for array in (*tables, *self.more.values()):
+            array.flags.writeable = False  # a batch takes them as they are
+
     @property
     def rigid(self) -> Chains:
         """The same without shear and rotary inertia: Euler-Bernoulli's."""
@@ -246,20 +251,35 @@ class ManyBeams:
         jump: Array,
         water: Array | None,
     ) -> Chains:
-        """Divide cells in which only N varies, straight: its weighted means are values of it."""
-        steps = (np.arange(refinement)[:, None] + halved(np.array(GAUSS))) / refinement
-        at = left[..., None] + (right - left)[..., None] * steps.ravel()
-        values = self._at(rows, interval, at, jump).with_water(water)
-        N, more = values.axial_force, {}
+        """Divide cells in which only N varies, straight: its weighted means are values of it.
+
+        The weighted means of N^2 differ from the squares of those by -1/36 of the square of N's
+        change over the step.
+        """
+        masses, size = self.loads.mass_distribution, right - left
+        at = (np.arange(refinement)[:, None] + halved(np.array(GAUSS))).ravel() / refinement
+        m = _taken(masses.ends[..., 0], rows, interval)
+        a_X = self.loads.a_X[rows, None]
+        ahead = _taken(masses.moments_ahead[0], rows, interval) + m * (left - masses.x[interval])
+        start, slope = jump + a_X * ahead, a_X * m * size
+        N = np.repeat(start, len(at), axis=1)
+        N.reshape(*start.shape, -1)[...] += slope[..., None] * at
+
+        def each(cells: Array) -> Array:
+            return np.repeat(cells, len(at), axis=1)
+
+        def there(ends: Array) -> Array:
+            return each(_taken(ends[..., 0], rows, interval))
+
+        more = {}
         if self.shear is not None:
-            s = 1 / values.more["shear_stiffness"]
-            more = {"shear": s, "shear_turn": s * N, "shear_work": s * _squared(N)}
-            more["rotary_inertia"] = values.more["rotary_inertia"]
-        parts = {"length": (right - left) / (2 * refinement), "N": N, **more}
-        parts |= {"m": values.mass, "EI": values.stiffness}
-        of = {name: _spread(v, at.shape).reshape(len(rows), -1) for name, v in parts.items()}
-        length, m, EI, N = (of.pop(name) for name in ("length", "m", "EI", "N"))
-        return Chains(rows, length, m, EI, N, of, self._following(rows))
+            s = each(1 / _taken(self.shear.stiffness.ends[..., 0], rows, interval))
+            squared = N * N - each((slope / refinement) ** 2 / 36)
+            more = {"shear": s, "shear_turn": s * N, "shear_work": s * squared}
+            more["rotary_inertia"] = there(self.shear.rotary.ends)
+        EI, length = there(self.stiffness), each(size / len(at))
+        moving = each(m if water is None else m + water)
+        return Chains(rows, length, moving, EI, N, more, self._following(rows))
 
     def _water(self, rows: Integers, middle: Array) -> Array | None:
         """Return the water that moves with cells, by their middles [kg/m]; None without any."""
@@ -383,12 +403,6 @@ class ManyBeams:
         return np.asarray(~((buckled <= MOST_BUCKLED) & (tension <= MOST_TENSION)))
 
 
-def _spread(values: Array, shape: tuple[int, ...]) -> Array:
-    """Return values of cells at all places of them."""
-    whole = values if values.ndim == len(shape) else values[..., None]
-    return np.broadcast_to(whole, shape)
-
-
 def _every(values: Values) -> Values:
     """Return values with one entry for each point, none shared."""
     m, EI, N, more = values
@@ -397,16 +411,6 @@ def _every(values: Values) -> Values:
         return np.broadcast_to(v, N.shape)
 
     return Values(whole(m), whole(EI), N, {name: whole(v) for name, v in more.items()})
-
-
-def _squared(force: Array) -> Array:
-    """Return weighted means of N^2 on the halves of steps, from those of a straight N, (..., 2k).
-
-    They differ from the squares of the means by -1/16 of the square of the change.
-    """
-    pairs = force.reshape(*force.shape[:-1], -1, 2)
-    change = np.repeat(pairs[..., 1] - pairs[..., 0], 2, axis=-1)
-    return np.asarray(force**2 - change**2 / 16)
 
 
 def _mean(ends: Array) -> Array:
@@ -427,6 +431,7 @@ def sheared_columns(columns: Mapping[str, Array]) -> dict[str, Array]:
     if "shear" in columns:
         with np.errstate(divide="ignore"):
             found["shear_stiffness"] = 1 / columns["shear"]
+        found["shear_stiffness"].flags.writeable = False
     if "rotary_inertia" in columns:
         found["rotary_inertia_per_length"] = columns["rotary_inertia"]
     if "shear_turn" in columns:

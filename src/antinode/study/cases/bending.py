@@ -6,7 +6,6 @@ by the one rule on levels of halved steps; all chains are refined until it is wi
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -222,9 +221,10 @@ def _solved_effect(rigid: Chains, omega2: Array) -> Array:
     """
     modes = omega2.shape[1]
     effect = effect_of_shear(omega2, predict_many(_batch(rigid, modes), _FOR_EFFECT))
-    with np.errstate(all="ignore"), warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)
-        far = np.abs(effect - np.nanmedian(effect, axis=0))
+    known = effect[np.isfinite(effect).all(axis=1)]
+    most = np.median(known, axis=0) if len(known) else np.zeros(modes)
+    with np.errstate(invalid="ignore"):
+        far = np.abs(effect - most)
     doubtful = np.flatnonzero(~np.all(far < _ALIKE, axis=1))
     if len(doubtful):
         again, *_ = solve_free(rigid.some(doubtful), modes, _FOR_EFFECT)
