@@ -31,10 +31,21 @@ from antinode.riccati.lanes.workspace import LANES, OMEGA2, ROWS, new_chain, new
 from antinode.riccati.laws import BENDING  # noqa: E402
 
 from . import c, table  # noqa: E402
-from .beams import LENGTH, MODES, SEGMENTS, medians, smooth_case, steep_stations, stepped_beam  # noqa: E402
+from .beams import (  # noqa: E402
+    DASHPOTS,
+    LENGTH,
+    MODES,
+    SEGMENTS,
+    damped_beam,
+    medians,
+    smooth_case,
+    steep_stations,
+    stepped_beam,
+)
 from .cold_start import starts  # noqa: E402
 from .peers import dense, figures, hp, packages  # noqa: E402
 from .peers.reduced_basis import ReducedBasis  # noqa: E402
+from .peers.state_space import StateSpace  # noqa: E402
 from .peers.subspace import Subspace  # noqa: E402
 from .peers.timoshenko import TimoshenkoSubspace  # noqa: E402
 
@@ -250,6 +261,34 @@ def _single_row(what, antinode_s, peer, peer_s):
     return row(work, names[peer], 0.5, antinode_s, peer_s, most=True, figure=peer)
 
 
+def complex_modes():
+    """Six complex modes with shapes: two dashpots, 100 segments that all differ."""
+    beams = [damped_beam(seed) for seed in range(12)]
+    peers = [StateSpace(beam, DASHPOTS) for beam in beams]
+    starts = [np.sum(peer.inverted(MODES)[1], axis=1).real for peer in peers]
+    for beam, peer in zip(beams, peers, strict=True):
+        ours = an.solve_modes(beam, MODES, families=("bending",))
+        assert ours.certificate["kind"] == "winding"
+        s = np.array([mode.eigenvalue for mode in ours.modes])
+        for found in (peer.dense()[0], peer.inverted(MODES)[0]):
+            upper = sorted(found[found.imag > 0], key=abs)[:MODES]
+            check("elements", np.array(upper), s, 1e-5)
+    mine, warm, cold, full = medians(
+        51,
+        _in_turn(lambda k: an.solve_modes(beams[k], MODES, families=("bending",)), 12),
+        _in_turn(lambda k: peers[k].inverted(MODES, starts[k - 1]), 12),
+        _in_turn(lambda k: peers[k].inverted(MODES), 12),
+        _in_turn(lambda k: peers[k].dense(), 12),
+    )
+    work = "6 complex modes with shapes, proven, two dashpots, 100 segments (solve_modes)"
+    eigs = "scipy eigs, shift-invert by banded Cholesky, vectors"
+    return [
+        row(work, f"{eigs}, started from the beam before", 1, mine, warm, most=True),
+        row(work, f"{eigs}, started afresh", 1, mine, cold, most=True),
+        row(work, "scipy.linalg.eig on the state space of 200 unknowns, vectors", 20, mine, full),
+    ]
+
+
 def smooth():
     """A steep smooth beam to 1e-7: mesh and beam are built in every call."""
     tables = [steep_stations(seed) for seed in range(20)]
@@ -338,7 +377,7 @@ def _processor():
     return (names[0] if names else platform.machine()) + wide
 
 
-PARTS = step, batch, sheared, loads, single, smooth, long_chain, cold_start
+PARTS = step, batch, sheared, loads, single, complex_modes, smooth, long_chain, cold_start
 
 
 def main(given=None):

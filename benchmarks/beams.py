@@ -8,6 +8,8 @@ import numpy as np
 LENGTH = 6.0
 SEGMENTS = 100
 MODES = 6
+DASHPOTS = (1.8, 200.0), (LENGTH, 500.0)
+"""Of damped beams: x [m] and c [N s/m]."""
 
 
 def smooth_case(rng, beams, spread=0.1, segments=SEGMENTS):
@@ -37,6 +39,16 @@ def stepped_beam(segments):
     x = np.linspace(0.0, LENGTH, segments + 1)
     _, m, EI, N = smooth_case(np.random.default_rng(0), 1, 0.0, segments)
     return an.Beam.from_stations(x, m[0], EI[0], None, N[0])
+
+
+def damped_beam(seed):
+    """A clamped beam without N that carries dashpots, m and EI different in every segment."""
+    import antinode as an
+
+    _, m, EI, _ = smooth_case(np.random.default_rng(seed), 1)
+    x = np.linspace(0.0, LENGTH, SEGMENTS + 1)
+    beam = an.Beam.from_stations(x, m[0], EI[0], ends=an.Ends("clamped"))
+    return beam.with_attachments(*(an.Dashpot(at, translational=c) for at, c in DASHPOTS))
 
 
 def steep_stations(seed):

@@ -15,6 +15,7 @@ from antinode.arrays import Array, Integers
 from antinode.errors import ComputationError
 from antinode.riccati.chain import Chain, Evaluation
 from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
+from antinode.riccati.damped.chain import Form
 from antinode.riccati.forced import Lanes, Loads, Sides
 from antinode.riccati.laws import Columns
 from antinode.riccati.normalised import Normalised, Wanted
@@ -41,6 +42,8 @@ class Backend(Protocol):
     """What solves chains and beams: a module, `riccati.readable` or `riccati.lanes.calls`."""
 
     name: str
+    complex_form: type[Form]
+    """What answers for chains at complex s."""
 
     def evaluate(self, chain: Chain, omega2: npt.ArrayLike, /) -> Evaluation:
         """Count the eigenvalues below each omega^2, with the characteristic function there."""

@@ -134,6 +134,8 @@ class Chain:
         after = np.searchsorted(nodes, positions).clip(1, len(nodes) - 1)
         gap = np.minimum(np.abs(nodes[after] - positions), np.abs(positions - nodes[after - 1]))
         new = gap > 1e-12 * nodes[-1]
+        if not new.any():
+            return self
         cut, n = after[new] - 1, len(self.length)
         pieces = np.bincount(cut, minlength=n) + 1
         places = np.concatenate([[0], np.cumsum(pieces)])

@@ -122,11 +122,15 @@ def _forms(chain: Chain, energies: Energies, wanted: Wanted, scale: Array) -> Fo
 
 
 def states_at(chain: Chain, states: Array, omega2: Array, places: Array) -> Array:
-    """Return the states at places; a doubled one has its left side first, (places, k, s)."""
+    """Return the states at places; a doubled one has its left side first, (places, k, s).
+
+    Both sides are the same but where something sits.
+    """
     nodes = chain.nodes
     node = np.searchsorted((nodes[1:] + nodes[:-1]) / 2, places)  # the nearest one
-    values = states[node].copy()
+    values = states[node]
     left = np.flatnonzero(places[1:] == places[:-1])
+    left = left[np.isin(node[left], [point.node for point in chain.points])]
     if len(left):
         before = node[left] - 1
         values[left] = propagate(chain, states[before], omega2, chain.length[before], before)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from .arrays import Array
 from .chain import Chain, evaluate
 from .chains import BeamRoots, ChainRoots, Chains, Tables
+from .damped.chain import Form
 from .forced import DrivenChain
 from .normalised import normal_modes, normalise
 from .reasons import BY_ITSELF
@@ -13,6 +14,7 @@ from .shapes import cut, mode_energies, mode_states
 
 __all__ = [
     "certify_guesses",
+    "complex_form",
     "cut",
     "driven",
     "evaluate",
@@ -29,6 +31,7 @@ __all__ = [
 
 name = "numpy"
 driven = DrivenChain
+complex_form: type[Form] = Form
 
 
 def solve_chains(

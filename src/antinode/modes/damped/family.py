@@ -71,7 +71,7 @@ def solve_damped(
     while True:
         chain = beam.chain(family, refinement)
         columns = make_chain(beam, family, refinement, 0.0).columns if lossy else None
-        damped = Damped(chain, columns)
+        damped = Damped(chain, columns, form=backend.complex_form)
         rest = at_rest(beam, damped)
         roots = _roots(damped, rest, modes, backend, scales)
         levels.append((roots, chain))
@@ -99,7 +99,7 @@ def solve_damped(
 def on_chain(beam: Beam, chain: Chain, modes: int, backend: Backend) -> ComplexRoots:
     """Return the complex eigenvalues of one chain of a beam, without dampers and loss."""
     refuse_pedestals(beam.attachments, "complex modes")
-    damped = Damped(without_dashpots(chain))
+    damped = Damped(without_dashpots(chain), form=backend.complex_form)
     return _roots(damped, at_rest(beam, damped), modes, backend, scales=True)
 
 
@@ -114,7 +114,9 @@ def on_refinement(
     chain = beam.chain(BENDING, refinement)
     lossy = dampers and beam.loss_factor is not None and bool(np.any(beam.loss_factor))
     columns = make_chain(beam, BENDING, refinement, 0.0).columns if lossy else None
-    damped = Damped(chain if dampers else without_dashpots(chain), columns)
+    damped = Damped(
+        chain if dampers else without_dashpots(chain), columns, form=backend.complex_form
+    )
     rest = at_rest(beam, damped)
     scales = beam.is_unloaded or not beam.has_shear or beam.shear_form == "haringx"
     roots = _roots(damped, rest, modes, backend, scales)
@@ -134,7 +136,8 @@ def _roots(
     damped: Damped, rest: AtRest, modes: int, backend: Backend, scales: bool
 ) -> ComplexRoots:
     """Return the eigenvalues of one chain."""
-    base, without = damped.base, replace(damped, columns=None)
+    without = damped if damped.columns is None else replace(damped, columns=None)
+    base = without.base
 
     def of_base(number: int) -> list[Eigenvalue]:
         return backend.find_eigenvalues(base, number, zeros=rest.base_zeros)

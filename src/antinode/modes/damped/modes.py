@@ -166,12 +166,23 @@ class _Shapes:
         self.left[:, number:] /= scale[number:, None]
         self.mass = mass * np.abs(scale) ** 2
         self.at_grid: Numbers = states_at(self.chain, self.states, self.omega2, places)
+        self.left_at_grid: Numbers = self._left_at_grid(damped, places)
+
+    def _left_at_grid(self, damped: Damped, places: Array) -> Numbers:
+        """Return left states at places: multiples of the right ones where the problem allows it."""
+        if damped.is_symmetric:
+            largest = np.argmax(np.abs(self.states[..., 0]), axis=0)
+            lane = np.arange(len(largest))
+            share = self.left[largest, lane, 0] / self.states[largest, lane, 0]
+            return np.asarray(self.at_grid * share[:, None])
         adjoint = adjoint_chain(self.chain)
-        self.left_at_grid: Numbers = states_at(adjoint, self.left, self.omega2, places)
+        return states_at(adjoint, self.left, self.omega2, places)
 
 
 def _on(damped: Damped, chain: Chain) -> tuple[Damped, Chain]:
     """Return what acts on a finer chain, and that chain with its columns as they lose energy."""
+    if chain is damped.chain and damped.columns is None:
+        return damped, chain
     if damped.columns is None:
         return replace(damped, chain=chain), chain
     middle = (chain.nodes[1:] + chain.nodes[:-1]) / 2
@@ -187,7 +198,8 @@ def _right_and_left(
     shape = (len(chain.length) + 1, len(s), chain.law.size)
     if not len(s):
         return np.zeros(shape, complex), np.zeros(shape, complex), np.zeros(0), None
-    right, left = complex_states(damped, s), complex_states(damped.transposed, s)
+    right = complex_states(damped, s)
+    left = right if damped.is_symmetric else complex_states(damped.transposed, s)
     forms: Products = products(damped, chain, s, right, left)
     along = 2 * s * forms.mass + forms.damping
     with np.errstate(all="ignore"):

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -34,8 +34,11 @@ from antinode.riccati.chain import (
 )
 from antinode.riccati.frames import determinant
 from antinode.riccati.lateral import without_tangential
-from antinode.riccati.laws import Columns
+from antinode.riccati.laws import Columns, Squares
 from antinode.riccati.points import Point, moving
+
+if TYPE_CHECKING:
+    from .ratio import RatioSamples
 
 _LARGEST_STACK = 2_000_000  # complex matrix entries held at once
 
@@ -65,6 +68,55 @@ class Passed(NamedTuple):
     units: Array
 
 
+class Form:
+    """What answers for a chain at complex s; None stands for what numpy is to answer: here, all.
+
+    Parameters
+    ----------
+    damped : Damped
+    """
+
+    def __init__(self, damped: Damped) -> None:
+        self.damped = damped
+
+    def characteristic(self, s: Complex) -> tuple[Complex, Array] | None:
+        """Return D and the logarithm of its size (`Damped.characteristic`)."""
+        return None
+
+    def find(
+        self,
+        starts: Complex,
+        known: list[complex],
+        *,
+        zeros: int,
+        unit: float,
+        floor: float,
+        mirrored: bool,
+    ) -> tuple[Complex, Array] | None:
+        """Return where secants end, and their last steps (`search.Search.run`)."""
+        return None
+
+    def states(self, s: Complex) -> Complex | None:
+        """Return states of modes (`shapes.complex_states`)."""
+        return None
+
+    def products(self, s: Numbers, right: Numbers, left: Numbers) -> tuple[Squares, Squares] | None:
+        """Return integrals of w v and of conj(v) v over every segment (`energies.products`)."""
+        return None
+
+    def samples(self, s: Complex, poles: Array) -> RatioSamples | None:
+        """Return samples of g, bounded (`ratio.Ratio.samples`)."""
+        return None
+
+    def ratios(self, s: Complex) -> Complex | None:
+        """Return g alone (`ratio.Ratio.values`)."""
+        return None
+
+    def receptances(self, omega2: Complex) -> Complex | None:
+        """Return G of the base chain (`ratio.Ratio.receptances`)."""
+        return None
+
+
 @dataclass(frozen=True)
 class Damped:
     """A chain with all that acts on it.
@@ -77,11 +129,19 @@ class Damped:
         The same columns as they lose energy, complex; none where nothing does.
     adjoint : bool
         Whether every feedback stands transposed: its states are left eigenvectors then.
+    form : type
+        What answers for it: compiled code (`damped.compiled`), or numpy alone.
     """
 
     chain: Chain
     columns: Columns | None = None
     adjoint: bool = False
+    form: type[Form] = Form
+
+    @cached_property
+    def other(self) -> Form:
+        """What answers for it in place of the functions here, where it can."""
+        return self.form(self)
 
     @cached_property
     def points(self) -> tuple[Point, ...]:
@@ -106,6 +166,12 @@ class Damped:
             points=tuple(map(_undamped, self.points)),
         )
 
+    @cached_property
+    def is_symmetric(self) -> bool:
+        """Whether the problem is its own adjoint, so that left eigenvectors are the right ones."""
+        alike = (point == _transposed(point) for point in self.points)
+        return not self.turns and all(alike)
+
     @property
     def turns(self) -> bool:
         """Whether loads along the axis turn with the section."""
@@ -126,12 +192,12 @@ class Damped:
         blocks: list[tuple[list[tuple[int, int]], Array, Array]] = []
         for point in self.points:
             K, C = _matrices(point, law.size // 2)
+            both = np.abs(K) + np.abs(C)
+            felt = (both.sum(0) + both.sum(1)).tolist()
             free = [
                 i
                 for i in range(len(K))
-                if (point.node, i) not in held
-                and i not in point.holds
-                and np.any([K[i], K[:, i], C[i], C[:, i]])
+                if felt[i] and (point.node, i) not in held and i not in point.holds
             ]
             if free:
                 some = np.ix_(free, free)
@@ -177,6 +243,9 @@ class Damped:
 
         It is ``value exp(size)``, size real: the determinant of equation 66 without its growth.
         """
+        found = self.other.characteristic(s)
+        if found is not None:
+            return found
         together = max(1, _LARGEST_STACK // (16 * len(self.chain.length)))
         parts = [self._characteristic(s[i : i + together]) for i in range(0, len(s), together)]
         value, size = zip(*parts, strict=True)

@@ -46,23 +46,11 @@ def products(damped: Damped, chain: Chain, s: Numbers, right: Numbers, left: Num
     s : array, shape (k,)
     right, left : array, shape (n + 1, k, c)
     """
-    omega2: Numbers = -s * s
-    total = np.zeros((2, len(Squares._fields), len(chain.length), len(s)), complex)
-    adjoint, along = adjoint_chain(chain), chain.columns.get("tangential")
-    turned: Numbers = np.zeros(len(s), complex)
-    phase = largest_wave_number(damped.chain, float(np.max(np.abs(omega2)))) * chain.length
-    for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
-        v = propagate(chain, right[:-1], omega2, point * chain.length)
-        w = propagate(adjoint, left[:-1], omega2, point * chain.length)
-        own = weight * chain.length[:, None]
-        if along is not None:
-            turned = turned + (own[:, 0] * along) @ (w[..., 0] * v[..., 1])
-        for i, other in enumerate((w, v.conj())):
-            total[i] += own * _polar(lambda z: chain.law.squares(chain.columns, z), other, v)
-    forms = chain.law.forms(chain.columns, Squares(*total[0]))
+    squares, of_size, turned = _integrals(damped, chain, s, right, left)
+    forms = chain.law.forms(chain.columns, squares)
     mass: Numbers = forms.mass
     stiffness: Numbers = forms.strain - forms.work - turned
-    size: Numbers = chain.law.forms(chain.columns, Squares(*total[1])).mass
+    size: Numbers = chain.law.forms(chain.columns, of_size).mass
     of_points = [point_forms(chain, point, right, left) for point in damped.base.points]
     for inertia, elastic, own_size in of_points:
         mass, stiffness, size = mass + inertia, stiffness + elastic, size + own_size
@@ -75,7 +63,30 @@ def products(damped: Damped, chain: Chain, s: Numbers, right: Numbers, left: Num
         )
         damping = np.einsum("ik,ij,jk->k", w, acting.C, v)
         stiffness = stiffness + np.einsum("ik,ij,jk->k", w, acting.K, v)
-    return Products(mass, stiffness, damping, size.real, Squares(*total[0]))
+    return Products(mass, stiffness, damping, size.real, squares)
+
+
+def _integrals(
+    damped: Damped, chain: Chain, s: Numbers, right: Numbers, left: Numbers
+) -> tuple[Squares, Squares, Numbers]:
+    """Return integrals of w v and of conj(v) v over segments, and what loads that turn give."""
+    turned: Numbers = np.zeros(len(s), complex)
+    found = damped.other.products(s, right, left)
+    if found is not None:
+        return *found, turned
+    omega2: Numbers = -s * s
+    total = np.zeros((2, len(Squares._fields), len(chain.length), len(s)), complex)
+    adjoint, along = adjoint_chain(chain), chain.columns.get("tangential")
+    phase = largest_wave_number(damped.chain, float(np.max(np.abs(omega2)))) * chain.length
+    for point, weight in zip(*gauss_rule(float(np.max(phase))), strict=True):
+        v = propagate(chain, right[:-1], omega2, point * chain.length)
+        w = propagate(adjoint, left[:-1], omega2, point * chain.length)
+        own = weight * chain.length[:, None]
+        if along is not None:
+            turned = turned + (own[:, 0] * along) @ (w[..., 0] * v[..., 1])
+        for i, other in enumerate((w, v.conj())):
+            total[i] += own * _polar(lambda z: chain.law.squares(chain.columns, z), other, v)
+    return Squares(*total[0]), Squares(*total[1]), turned
 
 
 def point_forms(
@@ -84,10 +95,12 @@ def point_forms(
     """Return a point's share of mass, stiffness and size."""
     last, v, w = point.node == len(right) - 1, right[point.node], left[point.node]
 
-    def share(which: int, other: Numbers) -> Numbers:
-        return _polar(lambda z: chain.law.point_energies(point, z, last)[which], other, v)
+    def energies(z: Numbers) -> tuple[Numbers, Numbers]:
+        return chain.law.point_energies(point, z, last)
 
-    return share(0, w), share(1, w), share(0, v.conj())
+    (inertia, elastic), (less, soft) = energies(w + v), energies(w - v)
+    size = energies(v.real)[0] + energies(v.imag)[0] if inertia.any() else 0 * less
+    return (inertia - less) / 4, (elastic - soft) / 4, size
 
 
 def _polar(quadratic: Callable[[Numbers], Numbers], a: Numbers, b: Numbers) -> Numbers:

@@ -76,7 +76,7 @@ def _traced(damped: Damped, start: Numbers, radius: float) -> Numbers:
     for steps in _STEPS:
         s = start
         for part in np.linspace(0, 1, steps + 1)[1:]:
-            search = Search(_partly(damped, float(part)).characteristic, 0, radius, False)
+            search = Search(_partly(damped, float(part)), 0, radius, False)
             s = search.run(np.asarray(s * (1 + 1e-9), dtype=complex), [])[0]
         if _distinct(s, np.inf) == _distinct(start, np.inf):
             break

@@ -88,13 +88,13 @@ class RatioSamples(NamedTuple):
     def some(self, rows: slice | Integers) -> RatioSamples:
         """Return some of them."""
         values: list[Any] = [column[rows] for column in self]
-        return RatioSamples(*values)
+        return type(self)(*values)
 
     def joined(self, other: RatioSamples, order: Integers) -> RatioSamples:
         """Return both, in an order."""
         pairs = zip(self, other, strict=True)
         values: list[Any] = [np.concatenate(pair)[order] for pair in pairs]
-        return RatioSamples(*values)
+        return type(self)(*values)
 
 
 @dataclass(frozen=True)
@@ -126,6 +126,9 @@ class Ratio:
         base, acting = self.damped.base, self.damped.acting
         if not acting.node:
             return np.zeros((len(omega2), 0, 0), complex)
+        found = self.damped.other.receptances(omega2)
+        if found is not None:
+            return found
         loads, nodes = self._loads
         z = forced_states(base, base.columns, Lanes(omega2, 0 * omega2), loads, nodes).left
         rows = np.searchsorted(nodes, acting.node)
@@ -175,6 +178,11 @@ class Ratio:
         T = ((at[:, None] * G).imag + sigma * G.imag) / at.imag[:, None]
         return np.asarray(np.maximum(T, 0) * (1 + _BESIDE) ** 2)
 
+    def values(self, s: Complex) -> Complex:
+        """Return g alone."""
+        found = self.damped.other.ratios(s)
+        return self.samples(s).value if found is None else found
+
     def samples(self, s: Complex, *, turned: bool = False) -> RatioSamples:
         """Return g, bounded.
 
@@ -184,6 +192,10 @@ class Ratio:
         turned : bool
             Whether the displacements are combined to those in which S is diagonal.
         """
+        found: RatioSamples | None
+        found = None if turned else self.damped.other.samples(s, self.poles)
+        if found is not None:
+            return found
         omega2, acting = -s * s, self.damped.acting
         reach = np.min(np.abs(omega2[:, None] - self.poles), axis=1) * (1 - 1e-9)
         beside = np.abs(omega2.imag) < _BESIDE * reach

@@ -254,7 +254,7 @@ class Finder:
     def _within(self, circle: Circle, path: Path) -> ComplexRoots:
         """Find and enclose the eigenvalues within a circle."""
         floor = _NEAR_ZERO * self.scale
-        search = Search(self.damped.characteristic, self.at_zero, circle.radius, floor=floor)
+        search = Search(self.damped, self.at_zero, circle.radius, floor=floor)
         known: list[complex] = []
         steps: list[float] = []
 
@@ -274,14 +274,15 @@ class Finder:
         starts = starts[starts != 0]
         if len(starts):
             take(*search.run(starts * (1 + 1e-4j), []), _APART)
+        polished = missing() <= 0
         for turn in range(_ROUNDS):
             if missing() <= 0:
                 break
             for start in self._starts(circle, path, known, turn):
                 if missing() > 0:
                     take(*search.run(np.array([start]), known), 0.0)
-        if known:
-            at, step = search.run(np.array(known), [])  # polished, without what was divided out
+        if known and not polished:  # without what was divided out
+            at, step = search.run(np.array(known), [])
             at = self._made_real(at, step)
             for k, (s, size) in enumerate(zip(at, step, strict=True)):
                 if np.isfinite(size) and abs(s - known[k]) < 1e-7 * abs(known[k]) + floor:
@@ -404,7 +405,7 @@ class Finder:
         least = np.full(len(s), -np.inf)
         for share in shares:
             step = share * disc
-            there = self.ratio.samples(np.concatenate([s + step, s - step])).value
+            there = self.ratio.values(np.concatenate([s + step, s - step]))
             with np.errstate(all="ignore"):
                 slope = np.abs(there[: len(s)] - there[len(s) :]) / (2 * step)
                 slope = slope - most / disc * share**2 / (1 - share**2) - noise / step
@@ -415,7 +416,7 @@ class Finder:
         """Estimate how far rounding moves g: by what it leaves of straight lines very near."""
         steps = np.array([-3, -2, -1, 0, 1, 2, 3])
         places = s[:, None] * (1 + 1e-13 * steps)
-        value = self.ratio.samples(places.ravel()).value.reshape(places.shape)
+        value = self.ratio.values(places.ravel()).reshape(places.shape)
         slope = value @ steps / np.sum(steps**2)
         rest = value - np.mean(value, axis=1, keepdims=True) - slope[:, None] * steps
         return np.asarray(_NOISE * np.max(np.abs(rest), axis=1) + 0.1 * np.abs(slope))
@@ -429,7 +430,7 @@ class Finder:
         here = self.ratio.samples(c)
         disc = _disc(here)
         h, small = _WIDE * disc, _STEP * disc
-        there = self.ratio.samples(np.concatenate([c + h, c - h, c + small, c - small])).value
+        there = self.ratio.values(np.concatenate([c + h, c - h, c + small, c - small]))
         radii, noise = _PAIRS * abs(centre), self._noise(c)
         x = np.minimum(radii / disc, 1 - 1e-9)
         with np.errstate(all="ignore"):

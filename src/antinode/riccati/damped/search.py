@@ -7,14 +7,11 @@ over is told by sums of powers of all that a path encloses (Delves, Lyness, Math
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from antinode.riccati.arrays import Array, Complex, Numbers
 
-Function = Callable[[Complex], tuple[Complex, Array]]
-"""Of s, returns values and the logarithms of what they are multiplied by."""
+from .chain import Damped
 
 _PASSES = 40
 _SMALL = 1e-14
@@ -26,7 +23,8 @@ class Search:
 
     Parameters
     ----------
-    function : callable
+    damped : Damped
+        Whose D it is.
     zeros : int
         Zeros at s = 0, divided out.
     unit : float
@@ -39,18 +37,18 @@ class Search:
 
     def __init__(
         self,
-        function: Function,
+        damped: Damped,
         zeros: int,
         unit: float,
         mirrored: bool = True,
         floor: float = 0.0,
     ) -> None:
-        self.function, self.zeros, self.unit, self.mirrored = function, zeros, unit, mirrored
+        self.damped, self.zeros, self.unit, self.mirrored = damped, zeros, unit, mirrored
         self.floor = floor
 
     def deflated(self, s: Complex, known: list[complex]) -> tuple[Complex, Array]:
-        """Return the function with what is known divided out."""
-        value, size = self.function(s)
+        """Return D with what is known divided out."""
+        value, size = self.damped.characteristic(s)
         divisor = np.log((s / self.unit).astype(complex)) * self.zeros
         for root in known:
             divisor = divisor + np.log((s - root) / self.unit)
@@ -63,6 +61,17 @@ class Search:
 
         Places that did not settle have an infinite step.
         """
+        found = self.damped.other.find(
+            starts,
+            known,
+            zeros=self.zeros,
+            unit=self.unit,
+            floor=self.floor,
+            mirrored=self.mirrored,
+        )
+        return self._secants(starts, known) if found is None else found
+
+    def _secants(self, starts: Complex, known: list[complex]) -> tuple[Complex, Array]:
         x = np.stack([starts, starts * (1 + _NEAR), starts * (1 + _NEAR * 1j)])
         with np.errstate(all="ignore"):
             y, size = self.deflated(x.ravel(), known)

@@ -101,7 +101,7 @@ class TurningFinder(Finder):
         """Return a path with D over that of the base chain, for its sums of powers."""
         s = path.samples.at
         own, size = self.damped.characteristic(s)
-        other, size_of_base = Damped(self.damped.base).characteristic(s)
+        other, size_of_base = Damped(self.damped.base, form=self.damped.form).characteristic(s)
         value = own / other * np.exp(size - size_of_base)
         samples = path.samples
         assert isinstance(samples, RatioSamples)

@@ -14,6 +14,8 @@ from antinode.riccati.arrays import Array
 from antinode.riccati.chain import Chain, Evaluation
 from antinode.riccati.chain import evaluate as evaluate_readable
 from antinode.riccati.chains import BeamRoots, ChainRoots, Chains, Tables
+from antinode.riccati.damped.chain import Form
+from antinode.riccati.damped.compiled import Compiled
 from antinode.riccati.laws import BENDING
 from antinode.riccati.reasons import CERTIFIED, CHAIN_TOO_SMALL, TABLE_TOO_SMALL
 from antinode.riccati.roots import Eigenvalue, FollowingRoots
@@ -32,6 +34,7 @@ from .workspace import Chain as Own
 
 __all__ = [
     "certify_guesses",
+    "complex_form",
     "cut",
     "driven",
     "evaluate",
@@ -48,6 +51,7 @@ __all__ = [
 
 name = "numba"
 driven = DrivenChain
+complex_form: type[Form] = Compiled
 
 _MANY = 64  # chains of a batch from which integrals over shapes are worth their time
 _GUESSED = 1e-8  # relative width of brackets of the chain in the middle of a batch

@@ -12,8 +12,8 @@ import numpy as np
 from antinode.riccati.chains import ChainRoots
 
 from . import following, laws, levels, lowest, rows, search
-from .forced import sweep
-from .forced.layout import Driven, Ends
+from .forced import free, products, ratio, sweep
+from .forced.layout import SEARCH, Acting, Driven, Ends, Free, RatioWork, Rule, Sampled, Zeros
 from .forced.layout import new_room as new_forced_room
 from .modal import integrals, segments, shapes
 from .structures import Kept
@@ -45,6 +45,15 @@ _asked = Asked(_f2, _f1, True)
 _room, _rules = Kept(new_room(1)), Rules(_f1, _i1, _f2, _f2)
 _found = ChainRoots.empty(1, 1)
 _driven = Driven(_i2, _f2, _i1, _f2, _f2, _f2, _f3, _f1, 1.0)
+
+_ends = Ends(_f2, _f2, True, True)
+_free, _zeros = Kept(Free(_driven, _ends, 1.0, 1.0, 1.0, 1.0)), Zeros(1, 1.0, 1.0, 1.0, True)
+_acting = Kept(Acting(Free(_driven, _ends, 1.0, 1.0, 1.0, 1.0), _i1, _i1, _f2, _f2))
+_sampled, _ratio_work = (
+    Sampled(_f2, _f1, *(5 * (_f3,)), _f4, _f2),
+    RatioWork(_f2, _i1, _f5, _f4, *(4 * (_f3,))),
+)
+_forced_room, _q = Kept(new_forced_room(1, 1, 1)), np.zeros(SEARCH)
 
 Entries = dict[str, tuple[Any, tuple[Any, ...]]]
 
@@ -94,7 +103,18 @@ ENTRIES: dict[str, Entries] = {
     "forced": {
         "drive": (
             sweep.drive,
-            (_driven, Ends(_f2, _f2, True, True), _f2, new_forced_room(1, 1, 1), _f5),
+            (_driven, _ends, _f2, new_forced_room(1, 1, 1), _f5),
+        ),
+        "characteristic": (free.characteristic, (_free, _f2, _forced_room, _q, _f2, _f1)),
+        "find_zeros": (free.find, (_free, _zeros, _f2, _f2, _forced_room, _q, _f2, _f1)),
+        "free_modes": (free.modes, (_free, _f2, _forced_room, _f5)),
+        "ratio": (ratio.samples, (_acting, _f2, _f1, _forced_room, _ratio_work, _sampled)),
+        "ratio_values": (ratio.values, (_acting, _f2, _forced_room, _ratio_work, _f2)),
+        "receptances": (ratio.receptances, (_acting, _f2, _forced_room, _ratio_work)),
+        "spread": (ratio.spread, (_f2, _sampled, _f1, _f3, _f1)),
+        "products": (
+            products.integrate,
+            (_free, Rule(_f1, _f3, _f1, _f1), _f2, _f4, _f4, _forced_room, _f5),
         ),
     },
 }

@@ -30,7 +30,15 @@ from .structures import HEAD, NOT_CALLED, Results, layout_of, reader_of
 PREFIX = "antinode_"
 """Of the symbols of entries."""
 
-HELPERS = {"exp": "exp", "expm1": "expm1", "log": "log", "memset": "memset", "memcpy": "memcpy"}
+HELPERS = {
+    "exp": "exp",
+    "expm1": "expm1",
+    "log": "log",
+    "log1p": "log1p",
+    "memset": "memset",
+    "memcpy": "memcpy",
+}
+HELPERS |= {"memset": "memset", "memcpy": "memcpy"}
 HELPERS |= {"sqrt": "sqrt", "numba_frexp": "frexp", "numba_ldexp": "ldexp"}
 """What the machine code may call from outside, and the name in the C library."""
 

@@ -41,7 +41,10 @@ BACK = CASE + COLUMN
 """Coefficients before a basis over those after it, 2 x 2."""
 SHIFT = BACK + 4 * PAIR
 """What is added, of the same load case."""
-WORK = SHIFT + 2 * PAIR
+FACTOR, GROWN, LOGS = SHIFT + 2 * PAIR, SHIFT + 3 * PAIR, SHIFT + 3 * PAIR + LANES
+"""Of the determinant of the frame: what supports cut off, growth since the last logarithm, and the
+logarithms before."""
+WORK = SHIFT + 4 * PAIR
 
 # Constants of one piece of a segment: those of a law that is linear in omega^2, in units of its
 # length and stiffness, then K0/EI and EI/K0, complex; its length, its phase, and where there is
@@ -53,14 +56,28 @@ CONSTANTS = 20
 POWERS = 4
 """Of m omega^2 h^4/EI, complex, in each of the four series where there is nothing but N."""
 
+# What a search keeps of three places - s, D, the logarithm of its size - and the last value; the
+# length of the last step, and whether it is done.
+X0, X1, X2 = (k * (2 * PAIR + LANES) for k in range(3))
+VALUE_AT = X2 + 2 * PAIR + LANES
+SIZE_AT = VALUE_AT + PAIR
+STEP = SIZE_AT + LANES
+SEARCH = STEP + 2 * LANES
+
 # Kinds of steps, each with two numbers.
-SEGMENTS, LOADS, JOINT, HOLD, KEEP = range(5)
+SEGMENTS, LOADS, JOINT, HOLD, KEEP, EVERY = range(6)
+"""The last are segments with a mark at every node between them."""
 
 # Columns of a point.
 MASS, OFFSET, INERTIA, SPRING, TURNING, COUPLING, OWN_LOAD, DAMPER, TURN_DAMPER, COMPLIANCE = range(
     10
 )
-POINT = 10
+FEEDBACK, RATES = 10, 14
+"""K and C of a feedback, rows Y and psi."""
+POINT = 18
+
+BESIDE = 1e-3
+"""Of the distance to the next pole: nearer to the axis S is taken from beside."""
 
 LONGEST = 0.6
 """Wave number times length of a piece: eight terms of the series reach rounding."""
@@ -103,6 +120,90 @@ class Ends(NamedTuple):
     """Conditions at the right end, shape (groups, 2 SIZE LANES), row after row."""
     left_moves: bool
     right_moves: bool
+
+
+class Free(NamedTuple):
+    """A chain by itself, whose points feed back, at complex s."""
+
+    chain: Driven
+    """Without load cases, or with one that is none."""
+    ends: Ends
+    inertia: float
+    rest: float
+    """``l^-4 = inertia abs(s)^2 + rest``: the unit of length."""
+    power: float
+    constant: float
+    """The logarithm of D has ``power log(l) + constant`` for its units."""
+
+
+class Zeros(NamedTuple):
+    """What is asked of a search."""
+
+    zeros: int
+    """At s = 0, divided out."""
+    unit: float
+    floor: float
+    most: float
+    """Modulus of s beyond which no search goes."""
+    mirrored: bool
+
+
+class Acting(NamedTuple):
+    """Where something acts on a base chain, driven there by unit forces, and its matrices."""
+
+    free: Free
+    """With a load case for each displacement."""
+    mark: Integers
+    """Of each displacement, shape (r,)."""
+    freedom: Integers
+    K: Array
+    C: Array
+
+
+class Sampled(NamedTuple):
+    """Samples of g, as `riccati.damped.ratio.RatioSamples` has them."""
+
+    value: Array
+    """Shape (k, 2)."""
+    reach: Array
+    matrix: Array
+    """Shape (k, r, r)."""
+    inverse: Array
+    receptance: Array
+    stiffness: Array
+    damping: Array
+    acting: Array
+    """Shape (k, r, r, 2)."""
+    size: Array
+    """Shape (k, r)."""
+
+
+class RatioWork(NamedTuple):
+    """What samples of g write into, of matrices one for all."""
+
+    places: Array
+    """Shape (2 k, 2)."""
+    beside: Integers
+    out: Array
+    """Shape (marks, SIZE, r, 2 k, 2)."""
+    G: Array
+    """Shape (2 k, r, r, 2)."""
+    g: Array
+    z: Array
+    m: Array
+    inverse: Array
+
+
+class Rule(NamedTuple):
+    """How products are integrated over segments."""
+
+    weights: Array
+    """Of the Gauss points of a segment."""
+    constants: Array
+    """Of a piece of what lies left of each point, shape (points, n, CONSTANTS)."""
+    length: Array
+    force: Array
+    """N."""
 
 
 class Room(NamedTuple):

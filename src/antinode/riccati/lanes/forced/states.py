@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import pairwise
 from math import comb, factorial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,12 +16,13 @@ from antinode.riccati.forced import Lanes, Loads, Sides
 from antinode.riccati.lanes.library import library
 from antinode.riccati.lanes.workspace import LANES
 from antinode.riccati.lateral import Lateral
-from antinode.riccati.laws import Columns
+from antinode.riccati.laws import Columns, Law
 from antinode.riccati.points import Point
 
 from .layout import (
     BASIS,
     CONSTANTS,
+    EVERY,
     FORCE,
     HOLD,
     INERT,
@@ -44,12 +47,14 @@ _MOST_BASES = 200_000  # that one group of lanes keeps
 _AS_HIGH = 1e-3  # by which omega^2 may be above that for which segments were parted
 _FIELDS = "mass", "offset", "inertia", "spring", "rotational_spring", "coupling", "own_load"
 _MORE_FIELDS = "dashpot", "rotational_dashpot", "compliance"
+_NONE = (0.0, 0.0, 0.0, 0.0)
 
 
 class DrivenChain:
     """A chain with what drives it, ready to be asked at any frequencies.
 
-    Bars and shafts, feedback, and what would take too many bases, are left to the readable form.
+    Bars and shafts, loads that turn with the section, and what would take too many bases, are left
+    to the readable form.
 
     Parameters
     ----------
@@ -59,7 +64,7 @@ class DrivenChain:
 
     def __init__(self, chain: Chain, columns: Columns, loads: Loads, wanted: Integers) -> None:
         self._asked = chain, columns, loads, wanted
-        self._plain = isinstance(chain.law, Lateral) and not any(p.feeds_back for p in chain.points)
+        self._plain = is_known(chain)
         self._largest = 0.0
         self._made: tuple[Driven, int] | None = None
 
@@ -73,7 +78,7 @@ class DrivenChain:
         places = driven.steps[driven.steps[:, 0] == KEEP, 1:]
         out = np.empty((len(places), SIZE, loads.cases, len(size), 2))
         room = new_room(loads.cases, bases, len(places))
-        given = driven, _ends(chain, size), _lanes(chain, lanes, size), room, out
+        given = driven, ends_of(chain, size), _lanes(chain, lanes, size), room, out
         if library("forced").call("drive", *given)[0]:
             raise FloatingPointError("the chain takes more bases than were expected")
         left: list[Numbers] = []
@@ -95,43 +100,73 @@ class DrivenChain:
             return self._made
         chain, columns, loads, wanted = self._asked
         phase = chain.law.wave_number(chain, largest) * chain.length
-        bases = _bases(chain, phase, loads)
+        bases = most_bases(chain, float(np.sum(phase)), loads)
         if bases > _MOST_BASES:
             return None, bases
-        self._largest, self._made = largest, (_driven(chain, columns, phase, loads, wanted), bases)
+        steps = steps_of(chain, sorted(loads.at_nodes), wanted)
+        driven = driven_chain(chain, cut(chain, columns, phase), loads, steps)
+        self._largest, self._made = largest, (driven, bases)
         return self._made
 
 
-def _bases(chain: Chain, phase: Array, loads: Loads) -> int:
+def most_bases(chain: Chain, total: float, loads: Loads) -> int:
     """Return how many bases a sweep takes at most; very many where no number comes out."""
-    total = float(np.sum(phase))
     if not np.isfinite(total) or total > BASIS * _MOST_BASES:
         return _MOST_BASES + 1
     # two neighbouring bases have more than a limit of phase behind them together
     return int(2 * total / BASIS) + 3 * (len(chain.points) + len(loads.at_nodes)) + 8
 
 
-def _driven(chain: Chain, columns: Columns, phase: Array, loads: Loads, wanted: Integers) -> Driven:
-    foundation = chain.columns.get("foundation", np.zeros(len(chain.length)))
+class Cut(NamedTuple):
+    """The segments of a chain in pieces short enough for some size of omega^2."""
+
+    constants: Array
+    pieces: Integers
+    series: Array
+    phase: float
+    """Of a wave all along."""
+
+
+def cut(chain: Chain, columns: Columns, phase: Array) -> Cut:
+    """Return a chain in pieces, for a wave of so much phase in each segment."""
     pieces = np.maximum(np.ceil(phase / LONGEST), 1).astype(np.int64)
-    constants = _constants(chain, columns, pieces, phase / pieces)
-    rows = [[getattr(p, f) for f in (*_FIELDS, *_MORE_FIELDS)] for p in chain.points]
-    nodes = sorted(loads.at_nodes)
-    forces = [loads.at_nodes[node] for node in nodes]
+    constants = constants_of(chain, columns, pieces, phase / pieces)
+    return Cut(constants, pieces, _series(chain, constants), float(np.sum(phase)))
+
+
+def driven_chain(chain: Chain, own: Cut, loads: Loads, steps: Integers) -> Driven:
+    """Return a chain in pieces with its points and what drives it."""
+    along = loads.along
+    if loads.ground.any() and "foundation" in chain.columns:
+        along = along + chain.columns["foundation"][:, None] * loads.ground
+    rows = [_row(point) for point in chain.points]
+    forces = [loads.at_nodes[node] for node in sorted(loads.at_nodes)]
     return Driven(
-        _steps(chain, nodes, wanted),
-        constants,
-        pieces,
-        _series(chain, constants),
-        np.ascontiguousarray(loads.along + foundation[:, None] * loads.ground),
+        steps,
+        own.constants,
+        own.pieces,
+        own.series,
+        np.ascontiguousarray(along, dtype=float),
         np.array(rows, dtype=float).reshape(-1, POINT),
-        np.array(forces, dtype=float).reshape(-1, 2, loads.cases),
+        np.array(forces, dtype=float).reshape(len(forces), 2, loads.cases),
         np.array(loads.ground, dtype=float),
         chain.reference[0],
     )
 
 
-def _steps(chain: Chain, forced: list[int], wanted: Integers) -> Integers:
+def is_known(chain: Chain) -> bool:
+    """Tell whether the compiled form knows a chain's law and columns."""
+    turning = any(name.startswith("tangential") for name in chain.columns)
+    return isinstance(chain.law, Lateral) and not turning
+
+
+def _row(point: Point) -> list[float]:
+    """Return a point as `layout` has it."""
+    own = [getattr(point, name) for name in (*_FIELDS, *_MORE_FIELDS)]
+    return [*own, *(point.feedback or _NONE), *(point.feedback_damping or _NONE)]
+
+
+def steps_of(chain: Chain, forced: list[int], wanted: Integers) -> Integers:
     """Return the steps from the left end to the right one."""
     index = {node: i for i, node in enumerate(wanted.tolist())}
     points = {point.node: (i, point) for i, point in enumerate(chain.points)}
@@ -150,10 +185,26 @@ def _steps(chain: Chain, forced: list[int], wanted: Integers) -> Integers:
     return np.array(steps)
 
 
+def node_steps(chain: Chain) -> Integers:
+    """Return the steps with a mark at every node: behind what stands there, at the last before."""
+    n = len(chain.length)
+    points = {point.node: (i, point) for i, point in enumerate(chain.points)}
+    nothing: tuple[int, Point | None] = -1, None
+    places = sorted({*points, 0, n})
+    steps: list[tuple[int, int, int]] = []
+    for here, after in pairwise(places):
+        number, point = points.get(here, nothing)
+        steps += [*_at_node(number, point, -1), (KEEP, here, 0)]
+        steps.append((EVERY, here, after))
+    number, point = points.get(n, nothing)
+    steps += [(KEEP, n, 0), *_at_node(number, point, -1)]
+    return np.array(steps)
+
+
 def _at_node(number: int, point: Point | None, force: int) -> list[tuple[int, int, int]]:
     """Return a support, then what has mass or pulls, then a joint."""
     steps: list[tuple[int, int, int]] = []
-    acts = point is not None and (point.loads or point.damps)
+    acts = point is not None and (point.loads or point.damps or point.feeds_back)
     if point is not None and point.holds:
         steps.append((HOLD, number, sum(1 << row for row in point.holds)))
     if acts or force >= 0:
@@ -163,7 +214,7 @@ def _at_node(number: int, point: Point | None, force: int) -> list[tuple[int, in
     return steps
 
 
-def _constants(chain: Chain, columns: Columns, pieces: Integers, phase: Array) -> Array:
+def constants_of(chain: Chain, columns: Columns, pieces: Integers, phase: Array) -> Array:
     """Return the constants of a piece of every segment, shape (n, CONSTANTS)."""
     h, EI, K0 = chain.length / pieces, columns["stiffness"], chain.reference[0]
     s, turn, work, rotary, foundation = (columns.get(name, 0.0) for name in chain.law.more)
@@ -215,11 +266,21 @@ def _lanes(chain: Chain, lanes: Lanes, size: Array) -> Array:
     return _groups(parts)
 
 
-def _ends(chain: Chain, size: Array) -> Ends:
-    ends = chain.law.ends
-    alike = not any(chain.following)  # else units tell how much of a force turns
-    units = state_units(chain, size[:1] if alike else size)
+def ends_of(chain: Chain, size: Array) -> Ends:
+    """Return what the ends admit and want, for lanes of these abs(omega^2)."""
+    if not any(chain.following):
+        return _alike(chain.law, chain.left, chain.right)
+    ends, units = chain.law.ends, state_units(chain, size)  # these tell how much of a force turns
     start = np.swapaxes(end_frame(chain, 0, units), 1, 2)
     conditions = np.broadcast_to(right_conditions(chain, units), start.shape)
     frame, wanted = (_groups(np.asarray(part, dtype=float)) for part in (start, conditions))
     return Ends(frame, wanted, 0 in ends[chain.left], 0 in ends[chain.right])
+
+
+@cache
+def _alike(law: Law, left: str, right: str) -> Ends:
+    """Return the ends of a chain whose forces keep their direction: the same in all units."""
+    one, held = np.eye(SIZE), law.zeros(left)
+    start, wanted = one[[i for i in range(SIZE) if i not in held]], one[law.zeros(right)]
+    frame, conditions = (_groups(part[None]) for part in (start, wanted))
+    return Ends(frame, conditions, 0 in law.ends[left], 0 in law.ends[right])

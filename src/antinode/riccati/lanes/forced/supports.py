@@ -9,7 +9,7 @@ import math
 from antinode.riccati.lanes.compiling import compiled
 from antinode.riccati.lanes.workspace import LANES
 
-from .layout import FIRST, PAIR, SECOND, UNIT
+from .layout import FACTOR, FIRST, GROWN, PAIR, SECOND, UNIT
 from .segments import conjugate, get, over, put, square, times
 
 _PSI, _ROW = PAIR, 2 * PAIR
@@ -31,6 +31,7 @@ def _hold_both(chain, lane, w, room, basis):
     a, b = get(w, FIRST + lane), get(w, SECOND + lane)
     c, d = get(w, FIRST + _PSI + lane), get(w, SECOND + _PSI + lane)
     whole, back = a * d - b * c, room.back[basis]
+    put(w, FACTOR + lane, whole * get(w, FACTOR + lane))
     for part in range(4):
         put(back, part * PAIR + lane, complex(0.0, 0.0))
     for case in range(len(chain.ground)):
@@ -58,6 +59,7 @@ def _hold_one(chain, row, lane, w, room, basis):
         if other != row and other != 3 - row:
             length += square(b * get(w, FIRST + place) - a * get(w, SECOND + place))
     length = 1.0 / math.sqrt(length)
+    w[GROWN + lane] *= 1.0 / (size * length)
     for case in range(len(chain.ground)):
         z, shift = room.cases[case], room.shift[basis, case]
         ground = chain.ground[case] / w[UNIT + lane] if row == 0 else 0.0

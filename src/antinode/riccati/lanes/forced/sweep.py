@@ -22,19 +22,25 @@ from .layout import (
     COUPLING,
     DAMPER,
     DASHPOT,
+    EVERY,
+    FACTOR,
+    FEEDBACK,
     FIRST,
+    GROWN,
     HOLD,
     INERTIA,
     JOINT,
     KEEP,
     LANE,
     LOADS,
+    LOGS,
     MASS,
     OFFSET,
     OMEGA2,
     OWN_LOAD,
     PAIR,
     PHASE,
+    RATES,
     SECOND,
     SEGMENTS,
     SHIFT,
@@ -63,6 +69,7 @@ from .supports import hold
 
 _Y, _PSI, _M, _Q = (row * PAIR for row in range(4))
 _POLE = 1e-16
+_OFTEN = 32  # bases between logarithms
 _ROW = 2 * PAIR  # of the 2 x 2 coefficients, and of the coefficients of a case
 
 
@@ -89,24 +96,29 @@ def drive(chain, ends, lanes, room, out):
         own = min(group, len(ends.start) - 1)
         for place in range(LANE):
             w[place] = lanes[group, place]
-        for row in range(8):
-            for lane in range(LANES):
-                put(
-                    w,
-                    FIRST + row * PAIR + lane,
-                    complex(ends.start[own, row * LANES + lane], 0.0),
-                )
-        active = _start(chain, ends.left_moves, w, room.cases)
-        bases, marks = _sweep(chain, w, room, active)
+        admit(ends.start[own], w)
+        active = start(chain, ends.left_moves, w, room.cases)
+        bases, marks = sweep(chain, w, room, active)
         if bases < 0:
             return 1
-        _close(chain, ends, own, w, room)
-        _back(group, w, chain.stiffness, room, bases, marks, out)
+        close(chain, ends, own, w, room)
+        back(group, w, chain.stiffness, room, bases, marks, out)
     return 0
 
 
 @compiled
-def _start(chain, moves, w, cases):
+def admit(start, w):
+    """Set the frame of the left end."""
+    for row in range(8):
+        for lane in range(LANES):
+            put(w, FIRST + row * PAIR + lane, complex(start[row * LANES + lane], 0.0))
+    for lane in range(LANES):
+        put(w, FACTOR + lane, complex(1.0, 0.0))
+        w[GROWN + lane], w[LOGS + lane] = 1.0, 0.0
+
+
+@compiled
+def start(chain, moves, w, cases):
     """Set the particular states of the left end; return how many there are."""
     active = 0
     for case in range(len(chain.ground)):
@@ -120,7 +132,7 @@ def _start(chain, moves, w, cases):
 
 
 @compiled
-def _sweep(chain, w, room, active):
+def sweep(chain, w, room, active):
     """Pass all steps from left to right; return the numbers of bases and of marks."""
     wide_vectors()
     bases, marks, phase = 0, 0, 0.0
@@ -129,8 +141,12 @@ def _sweep(chain, w, room, active):
         kind, first, last = chain.steps[step, 0], chain.steps[step, 1], chain.steps[step, 2]
         if bases + 2 > len(room.back):
             return -1, 0
-        if kind == SEGMENTS:
+        if kind in (SEGMENTS, EVERY):
             for k in range(first, last):
+                if kind == EVERY and k > first:
+                    _keep(w, room, marks)
+                    room.basis[marks] = bases
+                    marks += 1
                 active = cases if _is_driven(chain.along[k]) else active
                 bases, phase = _segment(chain, k, w, room, active, bases, phase)
                 if bases < 0:
@@ -206,6 +222,10 @@ def _renew(w, room, active, basis):
     _orthonormalise(w)
     for place in range(4 * PAIR):
         room.back[basis, place] = w[BACK + place]
+    if basis % _OFTEN == _OFTEN - 1:
+        for lane in range(LANES):
+            w[LOGS + lane] += math.log(w[GROWN + lane])
+            w[GROWN + lane] = 1.0
     for case in range(len(room.cases)):
         state, shift = room.cases[case], room.shift[basis, case]
         if case >= active:
@@ -247,6 +267,7 @@ def _orthonormalise(w):
         put(w, BACK + PAIR + lane, times(-size * other, r))
         put(w, BACK + _ROW + lane, complex(0.0, 0.0))
         put(w, BACK + _ROW + PAIR + lane, complex(other, 0.0))
+        w[GROWN + lane] *= 1.0 / (size * other)
 
 
 @compiled
@@ -315,10 +336,19 @@ def _load(chain, point, lanes, z, column):
         across = times(m * d, omega2) - own[COUPLING]
         turn = times(own[TURN_DAMPER], dashpot) - times(turned, omega2)
         turn = turn + (own[TURNING] + own[OWN_LOAD] * d)
-        Q = times(unit, lift * Y) + across * psi
-        M = turn * psi - times(unit, across * Y)
+        lift = lift - _fed_back(own, 0, dashpot)
+        pull, push = across - _fed_back(own, 1, dashpot), across - _fed_back(own, 2, dashpot)
+        turn = turn + _fed_back(own, 3, dashpot)
+        Q = times(unit, lift * Y) + pull * psi
+        M = turn * psi - times(unit, push * Y)
         put(z, column + _Q + lane, get(z, column + _Q + lane) + times(unit * unit / K0, Q))
         put(z, column + _M + lane, get(z, column + _M + lane) + times(unit / K0, M))
+
+
+@compiled
+def _fed_back(own, entry, s):
+    """Return an entry of K + s C of a feedback."""
+    return times(own[RATES + entry], s) + own[FEEDBACK + entry]
 
 
 @compiled
@@ -347,19 +377,19 @@ def _turn(chain, point, lanes, z, column):
 
 
 @compiled
-def _close(chain, ends, group, w, room):
+def close(chain, ends, group, w, room):
     """Set the coefficients that meet the conditions of the right end."""
     wanted = ends.wanted[group]
     for lane in range(LANES):
-        c00, c01 = _condition(wanted, 0, w, FIRST, lane), _condition(wanted, 0, w, SECOND, lane)
-        c10, c11 = _condition(wanted, 1, w, FIRST, lane), _condition(wanted, 1, w, SECOND, lane)
+        c00, c01 = condition(wanted, 0, w, FIRST, lane), condition(wanted, 0, w, SECOND, lane)
+        c10, c11 = condition(wanted, 1, w, FIRST, lane), condition(wanted, 1, w, SECOND, lane)
         whole = c00 * c11 - c01 * c10
         if whole.real == 0.0 and whole.imag == 0.0:  # a pole: as near as numbers are
             size = square(c00) + square(c01) + square(c10) + square(c11)
             whole = complex(_POLE * size, 0.0)
         for case in range(len(chain.ground)):
             z, a = room.cases[case], room.coefficients[case]
-            r0, r1 = -_condition(wanted, 0, z, 0, lane), -_condition(wanted, 1, z, 0, lane)
+            r0, r1 = -condition(wanted, 0, z, 0, lane), -condition(wanted, 1, z, 0, lane)
             if ends.right_moves:
                 moved = chain.ground[case] / w[UNIT + lane]
                 r0 = r0 + wanted[lane] * moved
@@ -369,7 +399,7 @@ def _close(chain, ends, group, w, room):
 
 
 @compiled
-def _condition(wanted, row, z, column, lane):
+def condition(wanted, row, z, column, lane):
     """Return one condition of one column."""
     total = complex(0.0, 0.0)
     for part in range(4):
@@ -379,7 +409,7 @@ def _condition(wanted, row, z, column, lane):
 
 
 @compiled
-def _back(group, w, stiffness, room, bases, marks, out):
+def back(group, w, stiffness, room, bases, marks, out):
     """Carry the coefficients back, and write the states at the marks."""
     mark = marks - 1
     for basis in range(bases, -1, -1):
