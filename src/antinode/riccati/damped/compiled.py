@@ -120,7 +120,7 @@ class CompiledSamples(RatioSamples):
         room, out = np.empty((*a.shape[1:], 2)), np.empty(len(at))
         found = Sampled(_pairs(value), reach, a, b, c, d, e, _parts(acting), size)
         far = np.ascontiguousarray(np.broadcast_to(distance, out.shape), dtype=float)
-        library("forced").call("spread", _pairs(at), found, far, room, out)
+        library("complex").call("spread", _pairs(at), found, far, room, out)
         return out
 
 
@@ -150,7 +150,7 @@ class Compiled(Form):
             return None
         value, size = np.empty(len(s), complex), np.empty(len(s))
         given = ready.free, _pairs(s), ready.room, self._search, value.view(float).reshape(-1, 2)
-        _done(library("forced").call("characteristic", *given, size))
+        _done(library("complex").call("characteristic", *given, size))
         return value, size
 
     def find(
@@ -171,7 +171,7 @@ class Compiled(Form):
         found, step = np.empty(len(starts), complex), np.empty(len(starts))
         roots = np.array(known, dtype=complex)
         given = ready.free, asked, _pairs(starts), _pairs(roots), ready.room, self._search
-        _done(library("forced").call("find_zeros", *given, _pairs(found), step))
+        _done(library("complex").call("find_zeros", *given, _pairs(found), step))
         return found, step
 
     def samples(self, s: Complex, poles: Array) -> RatioSamples | None:
@@ -186,7 +186,7 @@ class Compiled(Form):
         found = Sampled(np.empty((k, 2)), np.empty(k), a, b, c, d, e, *ends)
         work = ready.work(2 * k)
         given = ready.acting, _pairs(s), poles, ready.room, work, found
-        _done(library("forced").call("ratio", *given))
+        _done(library("complex").call("ratio", *given))
         value, acting = (np.asarray(z.view(complex)[..., 0]) for z in (found.value, found.acting))
         return CompiledSamples(s, value, found.reach, a, b, c, d, e, acting, found.size)
 
@@ -197,7 +197,7 @@ class Compiled(Form):
             return None
         value, work = np.empty(len(s), complex), ready.work(len(s))
         _done(
-            library("forced").call(
+            library("complex").call(
                 "ratio_values", ready.acting, _pairs(s), ready.room, work, _pairs(value)
             )
         )
@@ -209,7 +209,9 @@ class Compiled(Form):
         if ready is None:
             return None
         work = ready.work(len(omega2))
-        _done(library("forced").call("receptances", ready.acting, _pairs(omega2), ready.room, work))
+        _done(
+            library("complex").call("receptances", ready.acting, _pairs(omega2), ready.room, work)
+        )
         return np.asarray(work.G.view(complex)[..., 0])
 
     def states(self, s: Complex) -> Complex | None:
@@ -222,7 +224,7 @@ class Compiled(Form):
         if ready is None:
             return None
         out = np.empty((len(self._chain.length) + 1, SIZE, 1, len(s), 2))
-        _done(library("forced").call("free_modes", ready.free, _pairs(s), ready.room, out))
+        _done(library("complex").call("free_modes", ready.free, _pairs(s), ready.room, out))
         return np.asarray(out.view(complex)[:, :, 0, :, 0].transpose(0, 2, 1))
 
     def products(self, s: Numbers, right: Numbers, left: Numbers) -> tuple[Squares, Squares] | None:
@@ -240,7 +242,7 @@ class Compiled(Form):
         out = np.zeros((2, len(Squares._fields), len(chain.length), len(s), 2))
         states = (_parts(z) for z in (left, right))
         _done(
-            library("forced").call(
+            library("complex").call(
                 "products", ready.free, rule, _pairs(s), *states, ready.room, out
             )
         )

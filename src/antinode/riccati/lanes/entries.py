@@ -105,6 +105,8 @@ ENTRIES: dict[str, Entries] = {
             sweep.drive,
             (_driven, _ends, _f2, new_forced_room(1, 1, 1), _f5),
         ),
+    },
+    "complex": {
         "characteristic": (free.characteristic, (_free, _f2, _forced_room, _q, _f2, _f1)),
         "find_zeros": (free.find, (_free, _zeros, _f2, _f2, _forced_room, _q, _f2, _f1)),
         "free_modes": (free.modes, (_free, _f2, _forced_room, _f5)),

@@ -42,7 +42,7 @@ HELPERS |= {"memset": "memset", "memcpy": "memcpy"}
 HELPERS |= {"sqrt": "sqrt", "numba_frexp": "frexp", "numba_ldexp": "ldexp"}
 """What the machine code may call from outside, and the name in the C library."""
 
-Part = Literal["roots", "shapes", "forced"]
+Part = Literal["roots", "shapes", "forced", "complex"]
 """Of the library, as in `riccati.lanes.entries`."""
 
 Entry = tuple[Any, struct.Struct, Callable[[tuple[Any, ...]], tuple[Any, ...]]]
