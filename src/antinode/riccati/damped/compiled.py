@@ -34,7 +34,7 @@ from antinode.riccati.lanes.forced.layout import (
 )
 from antinode.riccati.lanes.forced.states import (
     Cut,
-    constants_of,
+    at_shares,
     cut,
     driven_chain,
     ends_of,
@@ -232,20 +232,16 @@ class Compiled(Form):
         ready = self._at_nodes(s)
         if ready is None:
             return None
-        chain, columns, given = self._chain, self._columns, ready.free.structure.chain
-        phase = given.constants[:, PHASE]
-        points, weights = gauss_rule(float(np.max(phase * given.pieces)))
-        constants = np.stack(
-            [constants_of(chain, columns, given.pieces / point, phase) for point in points]
-        )
+        chain, given = self._chain, ready.free.structure.chain
+        phase = given.constants[:, PHASE] * given.pieces
+        points, weights = gauss_rule(float(np.max(phase)))
+        constants = at_shares(given.constants, points)
         rule = Rule(weights, constants, chain.length, np.real(chain.axial_force))
         out = np.zeros((2, len(Squares._fields), len(chain.length), len(s), 2))
-        states = (_parts(z) for z in (left, right))
-        _done(
-            library("complex").call(
-                "products", ready.free, rule, _pairs(s), *states, ready.room, out
-            )
-        )
+        v = _parts(right)
+        w = v if left is right else _parts(left)
+        taken = ready.free, rule, _pairs(s), w, v, ready.room, out
+        _done(library("complex").call("products", *taken))
         whole = out.view(complex)[..., 0]
         return Squares(*whole[0]), Squares(*whole[1])
 

@@ -76,15 +76,6 @@ class RatioSamples(NamedTuple):
             spread = np.nanmin(np.where(np.isnan(bounds), np.inf, bounds), axis=0)
         return np.where(near < 1.0, spread, np.inf)
 
-    def remainder(self, distance: Array, disc: Array) -> Array:
-        """Return how far the function may be from its tangents within a distance of each place.
-
-        By Cauchy's inequality from the bound on a larger disc.
-        """
-        x = distance / disc
-        with np.errstate(all="ignore"):
-            return np.where(x < 1, self.spread(disc) * x * x / (1 - x), np.inf)
-
     def some(self, rows: slice | Integers) -> RatioSamples:
         """Return some of them."""
         values: list[Any] = [column[rows] for column in self]
@@ -95,6 +86,16 @@ class RatioSamples(NamedTuple):
         pairs = zip(self, other, strict=True)
         values: list[Any] = [np.concatenate(pair)[order] for pair in pairs]
         return type(self)(*values)
+
+
+def remainder(most: Array, distance: Array, disc: Array) -> Array:
+    """Return how far the function may be from its tangents within a distance of each place.
+
+    By Cauchy's inequality from the bound `most` on a larger disc.
+    """
+    x = distance / disc
+    with np.errstate(all="ignore"):
+        return np.where(x < 1, most * x * x / (1 - x), np.inf)
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from antinode.riccati.roots import CountingError, Eigenvalue
 from antinode.riccati.winding import Path, follow
 
 from .chain import Damped
-from .ratio import Ratio, RatioSamples
+from .ratio import Ratio, RatioSamples, remainder
 from .search import Search, left_over
 
 BaseEigenvalues = Callable[[int], list[Eigenvalue]]
@@ -384,25 +384,27 @@ class Finder:
                 break
             here = self.ratio.samples(s[open_], turned=turned)
             disc, off = _disc(here), np.abs(here.value) + noise[open_]
-            slope = np.maximum(self._least_slope(here, disc, noise[open_], steps), 0.0)
+            bound = here.spread(disc)
+            slope = self._least_slope(here.at, disc, bound, noise[open_], steps)
             with np.errstate(all="ignore"):
                 trials = [growth * radius[open_] for growth in _TANGENTS]
                 for trial in (*trials, 4 * off / slope):
-                    most = off + here.remainder(trial, disc)
+                    most = off + remainder(bound, trial, disc)
                     good = ~proven[open_] & (most < 0.5 * slope * trial) & (trial < disc)
                     proven[open_[good]], used[open_[good]] = True, trial[good]
+                    if good.all():
+                        break
         return proven, used
 
     def _least_slope(
-        self, here: RatioSamples, disc: Array, noise: Array, shares: tuple[float, ...]
+        self, s: Complex, disc: Array, most: Array, noise: Array, shares: tuple[float, ...]
     ) -> Array:
         """Return what abs(dg/ds) is at the least: by differences, each less what it may err by.
 
         A short step errs by rounding, a long one by the third derivative, for which the bound on
         the disc leaves much room where many forces act at once.
         """
-        s, most = here.at, here.spread(disc)
-        least = np.full(len(s), -np.inf)
+        least = np.zeros(len(s))
         for share in shares:
             step = share * disc
             there = self.ratio.values(np.concatenate([s + step, s - step]))

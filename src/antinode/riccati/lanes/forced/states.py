@@ -46,6 +46,9 @@ from .layout import (
 _MOST_BASES = 200_000  # that one group of lanes keeps
 _AS_HIGH = 1e-3  # by which omega^2 may be above that for which segments were parted
 _FIELDS = "mass", "offset", "inertia", "spring", "rotational_spring", "coupling", "own_load"
+_LENGTHS = np.repeat(
+    [2, 4, -2, 0, 1, 0, 2, 4], [4, 4, 2, 6, 1, 1, 1, 1]
+)  # powers of h in constants
 _MORE_FIELDS = "dashpot", "rotational_dashpot", "compliance"
 _NONE = (0.0, 0.0, 0.0, 0.0)
 
@@ -230,12 +233,18 @@ def constants_of(chain: Chain, columns: Columns, pieces: Integers, phase: Array)
     return constants
 
 
+def at_shares(constants: Array, shares: Array) -> Array:
+    """Return the constants of a share of every piece, shape (shares, n, CONSTANTS)."""
+    return np.asarray(constants * shares[:, None, None] ** _LENGTHS)
+
+
 def _series(chain: Chain, constants: Array) -> Array:
     """Return g_3 ... g_0 in powers of c, ``sum C(k - p, p) b^(k - 2 p) c^p/(2 k + j)!``."""
     if not chain.is_plain:
         return np.empty((0, 8 * POWERS))
-    b = -constants[:, :2].copy().view(complex)
-    return (b ** np.arange(TERMS) @ _weights()).view(float)
+    powers = np.ones((len(constants), TERMS), complex)
+    powers[:, 1:] = -constants[:, :2].copy().view(complex)
+    return (np.cumprod(powers, axis=1) @ _weights()).view(float)
 
 
 @cache
