@@ -5,9 +5,18 @@ import json
 import numpy as np
 import pytest
 from benchmarks import table
-from benchmarks.beams import LENGTH, MODES, SEGMENTS, smooth_case, steep_stations
+from benchmarks.beams import (
+    DASHPOTS,
+    LENGTH,
+    MODES,
+    SEGMENTS,
+    damped_beam,
+    smooth_case,
+    steep_stations,
+)
 from benchmarks.peers import dense, figures, hp, packages
 from benchmarks.peers.reduced_basis import ReducedBasis
+from benchmarks.peers.state_space import StateSpace
 from benchmarks.peers.subspace import Subspace
 from benchmarks.peers.timoshenko import TimoshenkoSubspace
 
@@ -45,6 +54,16 @@ def test_hermite_elements_agree(beams):
     for name, solve in hermite_peers(h).items():
         found = np.array([solve(m[k], EI[k], N[k], MODES) for k in range(BEAMS)])
         assert np.max(np.abs(found / expected - 1)) < 1e-5, name
+
+
+def test_elements_with_dashpots_agree():
+    beam = damped_beam(3)
+    modes, peer = an.solve_modes(beam, MODES, families=("bending",)), StateSpace(beam, DASHPOTS)
+    assert modes.certificate["kind"] == "winding"
+    s = np.array([mode.eigenvalue for mode in modes.modes])
+    for values, _ in (peer.dense(), peer.inverted(MODES)):
+        found = np.array(sorted(values[values.imag > 0], key=abs)[:MODES])
+        assert np.max(np.abs(found / s - 1)) < 1e-5
 
 
 def test_the_subspace_starts_cold(beams):

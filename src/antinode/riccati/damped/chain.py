@@ -191,6 +191,8 @@ class Damped:
         held |= {(last, i) for i in law.ends[self.chain.right]}
         blocks: list[tuple[list[tuple[int, int]], Array, Array]] = []
         for point in self.points:
+            if not (point.feeds_back or point.damps):
+                continue
             K, C = _matrices(point, law.size // 2)
             both = np.abs(K) + np.abs(C)
             felt = (both.sum(0) + both.sum(1)).tolist()
@@ -304,11 +306,13 @@ def _undamped(point: Point) -> Point:
 
 def _matrices(point: Point, freedoms: int) -> tuple[Array, Array]:
     """Return K and C of what acts at a point beside the base chain."""
-    K = np.array(point.feedback or np.zeros(4)).reshape(2, 2)
-    C = np.array(point.feedback_damping or np.zeros(4)).reshape(2, 2)
-    K = K - np.diag(np.diag(K))
-    C = C + np.diag([point.dashpot, point.rotational_dashpot])
-    return K[:freedoms, :freedoms], C[:freedoms, :freedoms]
+    K, C = point.feedback or _NONE, point.feedback_damping or _NONE
+    apart = [[0.0, K[1]], [K[2], 0.0]]
+    rates = [[C[0] + point.dashpot, C[1]], [C[2], C[3] + point.rotational_dashpot]]
+    return np.array(apart)[:freedoms, :freedoms], np.array(rates)[:freedoms, :freedoms]
+
+
+_NONE = (0.0, 0.0, 0.0, 0.0)
 
 
 def _transposed(point: Point) -> Point:
