@@ -97,6 +97,10 @@ def first(rng, n=12, **more):
     m, EI, EA = (s * np.exp(0.4 * rng.standard_normal(n)) for s in (300, 3e5, 1e7))
     return an.Beam.from_stations(x, m, EI, EA, 2e3 * x, **more)
 
+def damped(rng):
+    beam = an.Beam.from_stations(np.arange(9.0), *np.exp(rng.normal(0, 0.2, (2, 8))))
+    return beam.with_attachments(an.Dashpot(3.0, translational=0.4), an.Dashpot(8.0, 0.1))
+
 def batch(rng, one, n=25, beams=150):
     h, m, EI = np.full(n, 0.1), rng.uniform(1, 3, (beams, n)), rng.uniform(1e3, 3e3, (beams, n))
     N = rng.uniform(-1, 1, (beams, 1)) * rng.uniform(0, 500, n)
@@ -110,6 +114,9 @@ def everything(seed):
         for mode in result.modes:
             yield np.array([mode.omega2, *mode.bracket_omega2, mode.modal_mass])
             yield mode.states
+    result = an.solve_modes(damped(rng), 3, families=("bending",))
+    yield np.array([mode.eigenvalue for mode in result.modes])
+    yield np.array([mode.left for mode in result.modes])
     for one in (True, False):
         result = an.solve_many(batch(rng, one))
         yield result.omega2
@@ -120,6 +127,7 @@ def other_things():
     an.solve_many(batch(rng, False, n=3000, beams=3))
     an.natural_frequencies(first(rng, 40, interpolation="log"), 60, tolerance=1e-9)
     an.solve_modes(first(rng, 5), 20)
+    an.solve_modes(damped(rng), 9, families=("bending",))
     an.solve_many(batch(rng, True, n=7, beams=900))
 
 before = sys.argv[1]

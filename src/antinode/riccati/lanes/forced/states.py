@@ -56,8 +56,8 @@ _NONE = (0.0, 0.0, 0.0, 0.0)
 class DrivenChain:
     """A chain with what drives it, ready to be asked at any frequencies.
 
-    Bars and shafts, loads that turn with the section, and what would take too many bases, are left
-    to the readable form.
+    Bars and shafts, loads that turn with the section, pedestals, and what would take too many
+    bases, are left to the readable form.
 
     Parameters
     ----------
@@ -158,9 +158,11 @@ def driven_chain(chain: Chain, own: Cut, loads: Loads, steps: Integers) -> Drive
 
 
 def is_known(chain: Chain) -> bool:
-    """Tell whether the compiled form knows a chain's law and columns."""
+    """Tell whether the compiled form knows a chain's law, columns and points."""
     turning = any(name.startswith("tangential") for name in chain.columns)
-    return isinstance(chain.law, Lateral) and not turning
+    if turning or any(point.pedestal is not None for point in chain.points):
+        return False
+    return isinstance(chain.law, Lateral)
 
 
 def _row(point: Point) -> list[float]:
