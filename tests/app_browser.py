@@ -120,7 +120,8 @@ class Tab:
         The server answers the question after all that came before it, events that were on their
         way included; files that are dropped go another way: wait for what they bring.
         """
-        self.page.wait_for_function("window.antinode?.shown > 0")
+        begun = "window.antinode?.shown > 0"  # a first server may have its code compiled yet
+        self.page.wait_for_function(begun, timeout=5 * LONGEST)
         asked = self.page.evaluate("window.antinode.ask()")
         self.page.wait_for_function("(asked) => window.antinode.answered >= asked", arg=asked)
         self.page.wait_for_selector(".an-table:not(.an-quick) tbody tr")

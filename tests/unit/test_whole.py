@@ -78,7 +78,7 @@ def test_a_pipe_stays_a_pipe(tmp_path, tower):
     reader = threading.Thread(target=lambda: found.append(pipe.read_text()))
     reader.start()
     ended = run("beam", tower, "--modes", "1", "-o", pipe)
-    reader.join(timeout=20)
+    reader.join(timeout=120)
     assert ended.code == 0
     assert pipe.is_fifo()
     assert found[0].startswith("family,number,name")

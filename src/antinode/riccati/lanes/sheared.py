@@ -55,7 +55,7 @@ from .workspace import (
 STEP = 0.7
 """Wave number times length of a piece, at most: nine terms reach rounding.
 
-With |w| = 2 STEP^2 the first that is left out, (k + 1) |w|^k / (2k + 1)!, is below 1e-16.
+With w of 2 STEP^2 the first that is left out, (k + 1) abs(w)^k / (2k + 1)!, is below 1e-16.
 """
 
 _TERMS = 9

@@ -99,7 +99,7 @@ def test_an_interrupt_gives_the_best_so_far(folder):
                 break
         time.sleep(0.5)
         os.kill(process.pid, signal.SIGINT)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=300)
     assert process.returncode == 130, err
     data = json.loads(out)
     assert data["interrupted"]

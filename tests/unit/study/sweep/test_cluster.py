@@ -54,13 +54,13 @@ def cluster(*workers):
         for text in workers
     ]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    servers = [subprocess.Popen(["timeout", "120", *command], **quiet) for command in commands]
+    servers = [subprocess.Popen(["timeout", "600", *command], **quiet) for command in commands]
     try:
         yield address, servers
     finally:
         for server in servers:
             server.terminate()
-            server.wait(timeout=20)
+            server.wait(timeout=120)
 
 
 def identical(one, two):
@@ -115,7 +115,7 @@ def test_a_killed_scheduler_is_a_sentence_and_the_store_goes_on(case, tmp_path):
     with cluster("") as (address, servers):
         with pytest.raises(an.ComputationError, match=r"Dask .*run the same command again"):
             sweep(made, path, scheduler=address, progress=progress)
-        assert time.monotonic() - killed[0] < 30
+        assert time.monotonic() - killed[0] < 120
     assert 0 < len(Ledger(path).records) < 900
     told = []
     with contextlib.suppress(StoppedError):

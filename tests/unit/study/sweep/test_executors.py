@@ -64,13 +64,13 @@ def test_no_worker_outlives_its_parent(folder, tmp_path, how):
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     with subprocess.Popen(command, start_new_session=True, **quiet) as process:
         ledger, start = tmp_path / "s.zarr" / "reason" / ".antinode" / "ledger", time.monotonic()
-        while time.monotonic() - start < 60:
+        while time.monotonic() - start < 300:
             if ledger.exists() and ledger.stat().st_size > 500:
                 break
             time.sleep(0.05)
         assert len(group(process.pid)) > 2
         os.kill(process.pid, how)
-        process.wait(timeout=20)
+        process.wait(timeout=120)
         start = time.monotonic()
         while group(process.pid) and time.monotonic() - start < 10:
             time.sleep(0.05)

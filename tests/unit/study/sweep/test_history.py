@@ -85,7 +85,7 @@ def computed(request, tmp_path_factory):
     def compute(how, **environment):
         out = folder / f"{how}.npz"
         command = [sys.executable, folder / "script.py", how, folder / "study.toml", out]
-        subprocess.run(command, check=True, env={**os.environ, **environment}, timeout=120)
+        subprocess.run(command, check=True, env={**os.environ, **environment}, timeout=600)
         if out.exists():
             with np.load(out) as data:
                 return dict(data)
@@ -136,7 +136,7 @@ def test_the_number_of_threads_of_numpy_changes_no_bit(tmp_path):
         out = tmp_path / f"{threads}.npz"
         environment = {**os.environ, "OPENBLAS_NUM_THREADS": threads}
         command = [sys.executable, "-c", BATCH, out]
-        subprocess.run(command, check=True, env=environment, timeout=120)
+        subprocess.run(command, check=True, env=environment, timeout=600)
         with np.load(out) as data:
             found.append(dict(data))
     assert_same(*found)

@@ -346,7 +346,7 @@ def test_a_pool_of_processes_gives_the_same_numbers(case):
 
 def start(*arguments):
     """Start a server of Dask on loopback, which ends by itself."""
-    command = ["timeout", "60", sys.executable, "-m", "dask", *arguments]
+    command = ["timeout", "600", sys.executable, "-m", "dask", *arguments]
     return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
@@ -370,7 +370,7 @@ def test_dask_gives_the_same_numbers(case):
     finally:
         for server in servers:
             server.terminate()
-            server.communicate(timeout=20)
+            server.communicate(timeout=120)
     here = sweep(study(case, MIXED))
     xarray.testing.assert_identical(here.drop_attrs(deep=False), result.drop_attrs(deep=False))
 
