@@ -25,8 +25,9 @@ from antinode.response.frequency import Model, frequency_response  # noqa: E402
 from antinode.response.harmonic import bases  # noqa: E402
 from antinode.response.modal import basis  # noqa: E402
 from antinode.response.quantities import Force, Output  # noqa: E402
-from antinode.response.random import Inputs, moments  # noqa: E402
 from antinode.response.spectra import Spectrum  # noqa: E402
+from antinode.response.spectral.inputs import Inputs  # noqa: E402
+from antinode.response.spectral.moments import moments  # noqa: E402
 
 from .peers.banded import Banded  # noqa: E402
 

@@ -11,8 +11,9 @@ from antinode.response.frequency import Model
 from antinode.response.harmonic import bases
 from antinode.response.modal import basis
 from antinode.response.quantities import Force, Output
-from antinode.response.random import Inputs, davenport, moments
 from antinode.response.spectra import Spectrum
+from antinode.response.spectral.inputs import Inputs
+from antinode.response.spectral.moments import davenport, moments
 
 
 def one_mode(zeta, hertz=10.0, mass=5.0):

@@ -357,7 +357,8 @@ def test_a_response_has_a_chapter(flight):
     for row, verdict in zip(texts(equipment), result.verdicts, strict=True):
         assert row[0] == verdict.name
         assert float(row[2].replace("\u2212", "-")) == pytest.approx(verdict.margin_db, abs=0.006)
-        assert row[3] == "yes"
+        assert float(row[3]) == pytest.approx(verdict.error_db, rel=0.06)
+        assert row[4] == "yes"
     assert list(equipment.marked) == [False] * len(result.verdicts)
     assert set(result.warnings) <= set(told)
     page = to_html(document)

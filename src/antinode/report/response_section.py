@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from antinode.beam.beam import Beam
 from antinode.errors import InputError
+from antinode.response.equipment import Verdict
 from antinode.response.file import Problem, load_response, with_equipment
 from antinode.response.solve import solve_one_response
 from antinode.show.response_figures import plot_response
@@ -78,6 +79,14 @@ def with_responses(
     return replace(document, sections=sections), told
 
 
+def _failures(verdicts: Sequence[Verdict]) -> str:
+    """Say how many units feel more than they may, and of how many it is not known."""
+    said = [verdict.verdict for verdict in verdicts]
+    words = {"no": "EXCEEDED", "not decided": "not decided within the error"}
+    counted = [f"{said.count(key)} {word}" for key, word in words.items() if key in said]
+    return ", ".join(counted) + "." if counted else ""
+
+
 def _of(file: Path, problem: Problem, path: Path) -> Problem:
     """Return a response, or raise InputError where it is of another file."""
     named = path.parent / problem.file.response.of
@@ -111,9 +120,10 @@ def _blocks(problem: Problem, path: Path, result: Any) -> Iterator[Block]:
         own = verdict_rows(verdicts)
         failed = [k for k, verdict in enumerate(verdicts) if not verdict.passed]
         caption = (
-            "Equipment: the smallest distance below what each unit may feel, where it is smallest, "
+            "Equipment: the smallest distance below what each unit may feel, with the error of the "
+            "computation (+-), where it is smallest, "
             "the mode nearest to it and the force that makes most of it. "
-            + ("All are within." if not failed else f"{len(failed)} EXCEEDED.")
+            + (_failures(verdicts) or "All are within.")
         )
         yield table(caption, own.heads, own.rows, left=own.left, marked=failed)
     yield from drawn_on_pages(

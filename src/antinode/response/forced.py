@@ -107,14 +107,26 @@ class Forced:
         units = self.chain.law.state_units(self.chain.units(np.abs(lanes.omega2)))
         least = _EPS * self._cancelled(np.abs(lanes.omega2), units)
         noise = np.empty((len(self.outputs), len(self.drives), len(omega)))
+        least_size = self._driven_by(units)
         for row, (output, (_, place)) in enumerate(zip(self.outputs, self._found, strict=True)):
             scaled = [np.abs(side[place]) / units[:, :, None] for side in sides]
-            size = np.sqrt(np.sum(np.maximum(*scaled) ** 2, axis=1))
+            size = np.sqrt(np.sum(np.maximum(*scaled) ** 2, axis=1)) + least_size
             component = output.component
             component = component if component >= 0 else len(units[0]) + component
             noise[row] = least * (units[:, component, None] * size).T
         H = self._rated(self._outputs(sides, lanes), omega)
         return H, np.abs(self._rated(noise.astype(complex), omega))
+
+    def _driven_by(self, units: Array) -> Array:
+        """Return how large the jumps are that each case's forces make, in units, (k, cases).
+
+        A force on a support moves nothing: what is left there is rounding beside the force.
+        """
+        law, size = self.chain.law, np.zeros((len(units), len(self.drives)))
+        jumps = np.array([unit_jump(law, i) for i in range(law.size // 2)])
+        for forces in self.loads.at_nodes.values():
+            size += np.sqrt(np.sum((np.abs(jumps.T @ forces) / units[:, :, None]) ** 2, axis=1))
+        return size
 
     def _cancelled(self, omega2: Array, units: Array) -> Array:
         """Return how much larger terms are than what they leave of each other, (k,).

@@ -34,6 +34,7 @@ from .quantities import Base, Drive, Force, Output, check_places, stations_of
 ROUNDING = 5e-14
 """Relative change of a frequency that moves a response at least as far as rounding does."""
 _LOST = 0.05  # share of a response that rounding moves: at a pole no digit is certain
+_ANY = 10.0  # times it, how wrong it may be there, where it is but rounding
 _STEPS = 1e-7, 1e-10, 3e-13  # relative steps by which that change is measured
 _PER_REFINEMENT = 8  # modes that the coarsest steps are meant for
 
@@ -116,6 +117,18 @@ class Model:
         self.highest_hz = highest_hz
         self._chains: dict[tuple[FamilyName, int], Forced] = {}
         self._at: Callable[[Array], Numbers] | None = None
+        self._doubt: Callable[[Array], Array] | None = None
+
+    def with_outputs(self, rows: Sequence[int]) -> Model:
+        """Return the model with some of its outputs alone."""
+        rows = list(rows)
+        if len(rows) == len(self.outputs):
+            return self
+        outputs = [self.outputs[row] for row in rows]
+        own = Model(self.beam, self.drives, outputs, self.damping, self.highest_hz, self.backend)
+        if (at := self._at) is not None:
+            own.use(lambda f: at(f)[rows])
+        return own
 
     def first(self, family: FamilyName) -> int:
         """Return the refinement to start from: of no weight where nothing varies."""
@@ -184,21 +197,46 @@ class Model:
 
         However large it is: for a look that must not take long. (outputs, drives, k) each.
         """
+        levels = {}
+        for family in self.families:
+            first = self.first(family)
+            varies = np.any(self.beam.varies(family))
+            levels[family] = [first, 2 * first, 4 * first] if varies else [first]
+        return self._judged_on(levels, frequency_hz)
+
+    def known(self, frequency_hz: Array) -> tuple[Numbers, Array]:
+        """Return what `quick` does, and the error of each number, (outputs, drives, k) each."""
+        if self._doubt is not None:
+            return self.quick(frequency_hz), self._doubt(frequency_hz)
+        return self._judged_on({f: self._solved(f)[-4:] for f in self.families}, frequency_hz)
+
+    def _judged_on(
+        self, levels: dict[FamilyName, list[int]], frequency_hz: Array
+    ) -> tuple[Numbers, Array]:
+        """Return outputs over drives by chains of given refinements, and errors."""
         omega = 2 * np.pi * frequency_hz
         H = np.zeros((len(self.outputs), len(self.drives), len(omega)), dtype=complex)
         error = np.zeros(H.shape)
         for family in self.families:
-            first, rows = self.first(family), self.rows(family)
-            levels = (first, 2 * first, 4 * first) if np.any(self.beam.varies(family)) else (first,)
-            chains = [self.forced(family, refinement) for refinement in levels]
+            rows = self.rows(family)
+            chains = [self.forced(family, refinement) for refinement in levels[family]]
             H[rows], error[rows] = judged(self.beam, chains, omega)
             moved, noise = _moved(chains[-1], omega, chains[-1].at(omega))
-            error[rows] += ROUNDING * (moved + np.abs(H[rows])) + noise
+            size = np.abs(H[rows])
+            error[rows] += ROUNDING * (moved + size) + noise
+            lost = ROUNDING * moved > _LOST * size + noise
+            error[rows] += np.where(lost, _ANY * size, 0.0)
         return H, error
 
-    def use(self, at: Callable[[Array], Numbers]) -> None:
-        """Take outputs over drives from a function of frequencies [Hz] henceforth."""
-        self._at = at
+    def _solved(self, family: FamilyName) -> list[int]:
+        """Return the refinements that were asked for so far, in order."""
+        return sorted(refinement for name, refinement in self._chains if name == family)
+
+    def use(
+        self, at: Callable[[Array], Numbers], doubt: Callable[[Array], Array] | None = None
+    ) -> None:
+        """Take outputs over drives, and their errors, from functions of frequencies [Hz]."""
+        self._at, self._doubt = at, doubt
 
     def on(self, levels: dict[FamilyName, int], frequency_hz: Array) -> Numbers:
         """Return outputs over drives, (outputs, drives, k), on chains of given refinements."""
@@ -220,7 +258,7 @@ class Model:
         omega = 2 * np.pi * frequency_hz
         H = np.zeros((len(self.outputs), len(self.drives), len(omega)), dtype=complex)
         for family in self.families:
-            levels = sorted(r for name, r in self._chains if name == family)
+            levels = self._solved(family)
             fine = self.forced(family, levels[-1]).at(omega)
             if len(levels) > 1:
                 fine = fine + (fine - self.forced(family, levels[-2]).at(omega)) / 15

@@ -15,7 +15,7 @@ from antinode.beam.limits import out_of_range_is_an_error
 from antinode.methods import ResponseMethods
 
 from .damping import Damping
-from .equipment import Verdict, items_of
+from .equipment import Felt, Item, Judge, Verdict, items_of
 from .file import Problem
 from .frequency import Model
 from .modal import Basis, basis, modes_below, orthogonal, without_orthogonality
@@ -26,6 +26,7 @@ from .peaks import Peak, find_peaks, with_resonances
 from .quantities import Drive, Output
 
 _DOUBTFUL = 0.5  # half-widths of a resonance
+_NODE = 1e-9  # of the largest part of a mode in an output
 _AT_ONE = 1e-6  # relative, of a peak and a resonance that are one
 _ABOVE = 1.2  # of the highest frequency up to which resonances are looked up
 
@@ -190,13 +191,22 @@ def resonance_warnings(beam: Beam, modes: tuple[Basis, ...], low: float, high: f
     ]
 
 
-def _of_peaks(error: Array, peaks: Sequence[Sequence[Peak]], undamped_hz: Array) -> Array:
-    """Return errors of peaks of outputs: one at a resonance without damping has no height."""
-    endless = [
-        any(np.any(np.abs(peak.frequency_hz / undamped_hz - 1) < _AT_ONE) for peak in found)
-        for found in peaks
-    ]
-    return np.where(endless, np.inf, error)
+def endless_at(
+    modes: tuple[Basis, ...], row: int, peaks: Sequence[Peak], band: tuple[float, float]
+) -> str:
+    """Return the first mode in a band without damping at which an output peaks; else nothing.
+
+    At the node of a mode rounding peaks as well, but the mode has no part in it.
+    """
+    for own in modes:
+        part = np.abs(own.outputs[row]) * np.max(np.abs(own.drives), axis=1)
+        free = (own.ratio == 0.0) & (part > _NODE * np.max(part, initial=0.0))
+        for k in np.flatnonzero(free):
+            f = own.frequency_hz[k]
+            near = (abs(peak.frequency_hz / f - 1) < _AT_ONE for peak in peaks)
+            if band[0] <= f <= band[1] and any(near):
+                return own.names[k]
+    return ""
 
 
 @out_of_range_is_an_error()
@@ -220,29 +230,28 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
     grid = with_resonances(frequency, resonance, ratio) if len(frequency) > 1 else frequency
     if damping.modal:
         summed = modal_response(model, frequency, file.response.modes, file.response.tolerance)
-        H, error, at = summed.values, summed.error, summed.at
-        wrong = summed.peak_error
+        H, error, wrong = summed.values, summed.error, summed.peak_error
+        model.use(summed.at, summed.doubt)
     else:
         beside = np.setdiff1d(grid, frequency)
         H, error, wrong = model.response_with(frequency, beside, file.response.tolerance)
         wrong = np.maximum(error, wrong)
-        at = model.quick
     shares = H * amplitude[:, None]
 
     def sizes(places: Array) -> Array:
-        return np.asarray(np.abs(np.einsum("odk,d->ok", at(places), amplitude)))
+        return np.asarray(np.abs(np.einsum("odk,d->ok", model.quick(places), amplitude)))
 
     peaks = find_peaks(sizes, grid, sizes(grid)) if len(grid) > 2 else [[] for _ in outputs]
-    wrong = _of_peaks(wrong @ np.abs(amplitude), peaks, resonance[ratio == 0.0])
-    warnings = resonance_warnings(problem.beam, modes, float(frequency[0]), float(frequency[-1]))
-    verdicts = []
-    for row, item in enumerate(items, shown):
-        more = [peak.frequency_hz for peak in peaks[row]]
-        places = item.places(grid, more)
-        each = np.abs(at(places)[row] * amplitude[:, None])
-        both = sizes(places)[row]
-        part = each / np.maximum(np.sum(each, axis=0), 1e-300)
-        verdicts.append(item.judged(places, part * both, 20.0, modes, file.drive_names))
+    band = float(frequency[0]), float(frequency[-1])
+    endless = [bool(endless_at(modes, row, found, band)) for row, found in enumerate(peaks)]
+    wrong = np.where(endless, np.inf, wrong @ np.abs(amplitude))
+    judge = Judge(grid, modes, file.drive_names, 20.0)
+    verdicts = [
+        _judged(judge, item, row, model, amplitude, peaks[row], wrong[row])
+        for row, item in enumerate(items, shown)
+    ]
+    warnings = resonance_warnings(problem.beam, modes, *band)
+    warnings += [told for verdict in verdicts for told in verdict.warnings]
     return HarmonicResult(
         problem.title,
         frequency,
@@ -260,3 +269,29 @@ def solve_harmonic(problem: Problem) -> HarmonicResult:
         damping,
         tuple(warnings),
     )
+
+
+def _judged(
+    judge: Judge,
+    item: Item,
+    row: int,
+    model: Model,
+    amplitude: Numbers,
+    peaks: Sequence[Peak],
+    wrong: float,
+) -> Verdict:
+    """Compare what an item feels with what it may, at peaks and between them."""
+
+    def quick(f: Array) -> Array:
+        return np.asarray(np.abs(amplitude @ model.quick(f)[row]))
+
+    def known(f: Array) -> tuple[Array, Array]:
+        H, error = (part[row] for part in model.known(f))
+        each, whole = np.abs(H * amplitude[:, None]), np.abs(amplitude @ H)
+        part = each / np.maximum(np.sum(each, axis=0), 1e-300)
+        return part * whole, np.abs(amplitude) @ error
+
+    band = item.overlap(float(judge.frequency_hz[0]), float(judge.frequency_hz[-1]))
+    floor = wrong if np.isfinite(wrong) else float(np.max(known(judge.frequency_hz)[1]))
+    felt = Felt(quick, known, floor, endless_at(judge.modes, row, peaks, band))
+    return judge.verdict(item, felt, [peak.frequency_hz for peak in peaks])

@@ -54,6 +54,8 @@ class ModalSum:
         How many were summed, in all families.
     at : callable
         The same at other frequencies [Hz].
+    doubt : callable
+        How wrong each number there is, (outputs, drives, k).
     """
 
     values: Numbers
@@ -62,6 +64,7 @@ class ModalSum:
     shift_hz: float
     modes: int
     at: Callable[[Array], Numbers]
+    doubt: Callable[[Array], Array]
 
 
 def modal_response(
@@ -108,9 +111,12 @@ def modal_response(
     def at(places: Array) -> Numbers:
         return np.asarray(sum(part.at(places) for part in parts))
 
+    def doubt(places: Array) -> Array:
+        return np.asarray(sum(p.errors(places) + p.moves(places) for p in parts))
+
     count = sum(len(part.basis.omega2) for part in parts)
     shift = max((part.shift_hz(frequency_hz) for part in parts), default=0.0)
-    return ModalSum(at(frequency_hz), bounds, settled, shift, count, at)
+    return ModalSum(at(frequency_hz), bounds, settled, shift, count, at, doubt)
 
 
 class Summed:
@@ -151,26 +157,34 @@ class Summed:
         return outputs_of(H, self.model.outputs, self.model.drives, omega, self.family)
 
     def error(self, frequency_hz: Array) -> Array:
+        """Return the largest of `errors`, (outputs, drives)."""
+        return np.asarray(np.max(self.errors(frequency_hz), axis=-1))
+
+    def moved(self, frequency_hz: Array, still: bool = False) -> Array:
+        """Return the largest of `moves`, (outputs, drives)."""
+        return np.asarray(np.max(self.moves(frequency_hz, still), axis=-1))
+
+    def errors(self, frequency_hz: Array) -> Array:
         """Return how far half of the modes are from all of them, and what is wrong at rest."""
         order = np.argsort(self.basis.omega2, kind="stable")
         half = order[: (len(order) + 1) // 2]
         few = self._sum(self.basis.chosen(half), self.rest_of(half), frequency_hz)
-        missing = np.max(np.abs(self.at(frequency_hz) - few), axis=-1)
+        missing = np.abs(self.at(frequency_hz) - few)
         upper = self.basis.chosen(order[(len(order) + 1) // 2 :])
         coordinates = modal_coordinates(upper, 2 * np.pi * frequency_hz)
         beyond = np.abs(coordinates - upper.drives / (upper.omega2 + self.shift)[:, None])
-        missing = np.maximum(missing, _TAIL * self._largest(upper, beyond, frequency_hz))
+        missing = np.maximum(missing, _TAIL * self._sizes(upper, beyond, frequency_hz))
         rates = outputs_of(
-            np.ones((*missing.shape, 1), complex) * self.whole_error[:, :, None],
+            np.ones(missing.shape, complex) * self.whole_error[:, :, None],
             self.model.outputs,
             self.model.drives,
-            2 * np.pi * np.array([np.max(frequency_hz)]),
+            2 * np.pi * frequency_hz,
             self.family,
             ground=False,
         )
-        return np.asarray(missing + np.abs(rates[:, :, 0]))
+        return np.asarray(missing + np.abs(rates))
 
-    def moved(self, frequency_hz: Array, still: bool = False) -> Array:
+    def moves(self, frequency_hz: Array, still: bool = False) -> Array:
         """Return how far the errors of the modes move the sum; `still`: but for their frequency."""
         own, omega = self.basis, 2 * np.pi * frequency_hz
         stiff = own.omega2 - omega[:, None] ** 2 + 1j * omega[:, None] * np.diag(own.damping)
@@ -179,15 +193,15 @@ class Summed:
         if not still:
             relative = relative + own.doubts / np.abs(stiff)
         sizes = np.abs(modal_coordinates(own, omega)) * relative[:, :, None]
-        return self._largest(own, sizes, frequency_hz)
+        return self._sizes(own, sizes, frequency_hz)
 
-    def _largest(self, own: Basis, sizes: Array, frequency_hz: Array) -> Array:
-        """Return the largest sum of moduli over frequencies, of sizes (k, n, drives)."""
+    def _sizes(self, own: Basis, sizes: Array, frequency_hz: Array) -> Array:
+        """Return sums of moduli, (outputs, drives, k), of sizes (k, n, drives)."""
         omega, outputs = 2 * np.pi * frequency_hz, self.model.outputs
         c = np.abs(own.outputs)[:, None] + omega[:, None] * np.abs(own.drag)[:, None]
         H = np.einsum("okn,kni->oik", c, sizes).astype(complex)
         H = outputs_of(H, outputs, self.model.drives, omega, self.family, ground=False)
-        return np.asarray(np.max(np.abs(H), axis=-1))
+        return np.abs(H)
 
     def shift_hz(self, frequency_hz: Array) -> float:
         """Return how far a resonance between the first and the last frequency may be off [Hz]."""

@@ -27,7 +27,7 @@ class Headline(NamedTuple):
     label: str
     value: float
     error: float
-    """How wrong it may be, in the same unit; NaN where that is not known."""
+    """How wrong it may be, in the same unit."""
     unit: str
 
 
@@ -73,11 +73,11 @@ def headlines(result: Any) -> tuple[Headline, ...]:
     tuple of Headline
         Of each output the largest amplitude in the band, peaks between the frequencies of the file
         included; the rms; the largest of the history, or of the shock spectrum at the frequencies
-        of the file, SI. Of each piece of equipment the margin [dB], whose error is not known.
+        of the file, SI. Of each piece of equipment the margin [dB].
     """
     verdicts = getattr(result, "verdicts", ())
     numbers = [_number(result, row) for row in range(len(result.outputs))]
-    numbers += [(verdict.margin_db, math.nan) for verdict in verdicts]
+    numbers += [(verdict.margin_db, verdict.error_db) for verdict in verdicts]
     asked = asked_of(result.kind, result.outputs, verdicts)
     return tuple(
         Headline(one.key, one.label, *number, one.unit)
@@ -92,7 +92,9 @@ def _number(result: Any, row: int) -> tuple[float, float]:
     if result.kind == "transient":
         return abs(result.largest[row][1]), float(result.peak_error[row])
     if result.kind == "shock":
-        return float(np.max(result.srs[row])), float(result.error[row])
+        srs, off = result.srs[row], result.off[row]
+        most, least = float(np.max(srs + off)), float(np.max(srs - off))
+        return float(np.max(srs)), max(most - float(np.max(srs)), float(np.max(srs)) - least)
     at_most = max((peak.size for peak in result.peaks[row]), default=0.0)
     largest = max(at_most, float(np.max(np.abs(result.values[row]))))
     return largest, float(max(result.error[row], result.peak_error[row]))

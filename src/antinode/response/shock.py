@@ -8,7 +8,8 @@ Bull. 51 (1981) 279; ISO 18431-4). Largest, during the record and after it ("max
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -21,18 +22,21 @@ from antinode.errors import InputError
 from antinode.methods import ResponseMethods
 
 from .damping import Damping
-from .equipment import Verdict, items_of
+from .equipment import Felt, Judge, Verdict, items_of
 from .file import Problem
 from .frequency import Model, checked_frequencies
 from .harmonic import output_keys
 from .modal import Basis
+from .motion.oscillators import Gains, Linear, ride
 from .motion.recurrence import phi
 from .numbers import plain
 from .quantities import Drive, Output
-from .transient import histories_of, respond, slow_warnings
+from .transient import Driven, Histories, histories_of, respond, slow_warnings
 
 _PER_PERIOD = 40  # points of the record in a period of the oscillator, at least
 _ROUNDING = 1e-13  # relative
+_MOST = 6_000_000  # coordinates over all times
+_SETTLED = 1e-3  # nepers that a margin may miss between frequencies
 
 
 def srs(
@@ -150,9 +154,11 @@ class ShockResult(ResponseMethods, ByValue):
     outputs : tuple of Output
     srs : array, shape (outputs, k)
         In the unit of each output.
+    off : array, shape (outputs, k)
+        How wrong each may be: modes left out, their own errors and chords of formulas, as far as an
+        oscillator feels them, and cubics between points in time.
     error : array, shape (outputs,)
-        Of the histories, times what an oscillator can make of them, and of the largest value
-        between the points of a history.
+        The largest of these.
     q : float
     verdicts : tuple of Verdict
     count : int
@@ -166,6 +172,7 @@ class ShockResult(ResponseMethods, ByValue):
     frequency_hz: Array
     outputs: tuple[Output, ...]
     srs: Array = field(repr=False)
+    off: Array = field(repr=False)
     error: Array
     q: float
     verdicts: tuple[Verdict, ...]
@@ -184,7 +191,12 @@ class ShockResult(ResponseMethods, ByValue):
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers for JSON."""
         rows = [
-            {**output_keys(o), "srs": plain(self.srs[row]), "error": plain(self.error[row])}
+            {
+                **output_keys(o),
+                "srs": plain(self.srs[row]),
+                "srs_error": plain(self.off[row]),
+                "error": plain(self.error[row]),
+            }
             for row, o in enumerate(self.outputs)
         ]
         return {
@@ -212,6 +224,58 @@ class ShockResult(ResponseMethods, ByValue):
         return [("frequency [Hz]", self.frequency_hz), *heads]
 
 
+class Riders:
+    """Oscillators of any frequency on the outputs of a model.
+
+    Steps are short beside the period of those that are asked for together, an octave.
+
+    Parameters
+    ----------
+    parts : tuple of Histories
+        By family.
+    time_s : array
+    ratio : float
+        Of the oscillators.
+    """
+
+    def __init__(self, parts: tuple[Histories, ...], time_s: Array, ratio: float) -> None:
+        self.parts, self.time_s, self.ratio = parts, time_s, ratio
+        self.step = float(np.max(np.diff(time_s)))
+        self._on: dict[int, list[tuple[Histories, Linear]]] = {}
+
+    def felt(self, rows: Sequence[int], frequency_hz: Array) -> tuple[Array, Array]:
+        """Return what oscillators feel on outputs, and how wrong it may be, (rows, f) each."""
+        octave = np.ceil(np.log2(frequency_hz)).astype(int)
+        found, off = np.zeros((2, len(rows), len(frequency_hz)))
+        for k in np.unique(octave).tolist():
+            own = octave == k
+            for histories, linear in self._finer(k):
+                gains = Gains.over(frequency_hz[own], self.ratio, float(self.time_s[-1]))
+                left_out = histories.felt(gains)
+                for i, row in enumerate(rows):
+                    if histories.summed.model.outputs[row].family != histories.summed.family:
+                        continue
+                    seen = histories.seen(row, linear)
+                    ridden = ride(linear, seen, frequency_hz[own], self.ratio)
+                    found[i, own] = ridden.largest
+                    off[i, own] = ridden.off + left_out[row]
+        return found, off
+
+    def _finer(self, octave: int) -> list[tuple[Histories, Linear]]:
+        """Return the histories in steps that are short beside periods of an octave."""
+        modes = sum(len(own.summed.basis.omega2) for own in self.parts)
+        longest = max(0.5**octave / _PER_PERIOD, self.time_s[-1] * modes / _MOST)
+        parts = max(1, int(np.ceil(self.step / longest * (1 - 1e-9))))
+        if parts not in self._on:
+            made = []
+            for own in self.parts:
+                driven = Driven(own.driven.histories, self.time_s, self.step / parts)
+                finer = own if parts == 1 else Histories(own.summed, driven)
+                made.append((finer, finer.linear))
+            self._on[parts] = made
+        return self._on[parts]
+
+
 @out_of_range_is_an_error()
 def solve_shock(problem: Problem) -> ShockResult:
     """Compute the shock response spectra that a file asks for."""
@@ -219,31 +283,44 @@ def solve_shock(problem: Problem) -> ShockResult:
     assert file.time is not None
     assert file.frequency is not None
     frequency, items = file.frequency.hertz(), items_of(problem, "amplitude")
-    time = file.time.seconds()
+    time, shown = file.time.seconds(), len(file.outputs)
     outputs = (*file.outputs, *(item.output for item in items))
     model = Model(problem.beam, file.drives, outputs, damping, 1 / file.time.to, problem.backend)
-    y, error, _, driven, bases, count = respond(
-        model, histories_of(problem), time, file.response.modes
-    )
-    ratio, asked = 1 / (2 * file.shock.q), y[:, driven.asked]
-    spectra, between = np.swapaxes([_spectrum(time, row, frequency, ratio) for row in asked], 0, 1)
-    shown, verdicts = len(file.outputs), []
-    for k, item in enumerate(items):
-        places = item.places(frequency, [])
-        felt = srs(time, asked[shown + k], places, ratio)
-        names = file.drive_names if len(file.drive_names) == 1 else ()
-        verdicts.append(item.judged(places, felt[None], 20.0, bases, names))
+    y, error, _, _, bases, parts = respond(model, histories_of(problem), time, file.response.modes)
+    riders = Riders(parts, time, 1 / (2 * file.shock.q))
+    spectra, off = riders.felt(range(shown), frequency)
+    wide = tuple(replace(own, damping=_as_wide(own, riders.ratio)) for own in bases)
+    names = file.drive_names if len(file.drive_names) == 1 else ()
+    judge = Judge(frequency, wide, names, 20.0, _SETTLED)
+    verdicts = [judge.verdict(item, _ridden(riders, row)) for row, item in enumerate(items, shown)]
     warnings = slow_warnings(model, y, error)
+    warnings += [told for verdict in verdicts for told in verdict.warnings]
     return ShockResult(
         problem.title,
         frequency,
         outputs[:shown],
-        spectra[:shown],
-        (error * file.shock.q * np.pi + np.max(between, axis=-1))[:shown],
+        spectra,
+        off,
+        np.max(off, axis=-1, initial=0.0),
         file.shock.q,
         tuple(verdicts),
-        count,
+        sum(len(own.omega2) for own in bases),
         bases,
         damping,
         tuple(warnings),
     )
+
+
+def _as_wide(own: Basis, ratio: float) -> Array:
+    """Return damping by which no mode's resonance is narrower than an oscillator's."""
+    return own.damping + np.diag(2 * ratio * np.sqrt(np.abs(own.omega2)))
+
+
+def _ridden(riders: Riders, row: int) -> Felt:
+    """Return what an oscillator on a place feels."""
+
+    def known(f: Array) -> tuple[Array, Array]:
+        size, wrong = riders.felt([row], f)
+        return size, wrong[0]
+
+    return Felt(lambda f: riders.felt([row], f)[0][0], known, 0.0)

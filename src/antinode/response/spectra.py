@@ -6,6 +6,7 @@ points ``S = S1 (f/f1)^n``: n of 1 is 3.01 dB an octave.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from antinode.errors import InputError
 
 from .units import in_si, read_columns
 
+_PER_OCTAVE = re.compile(r"\s*dB\s*/\s*oct(ave)?\s*$")
 OCTAVE = 10 * np.log10(2.0)
 """Decibel of a factor of two in a density."""
 
@@ -133,9 +135,16 @@ def _list(value: object, where: str) -> list[object]:
     return value
 
 
+def _slope(value: object, where: str) -> float:
+    """Return a slope, which may carry its unit [dB per octave]."""
+    if isinstance(value, str):
+        value = _PER_OCTAVE.sub("", value)
+    return in_si(value, "", where)
+
+
 def _sloped(source: dict[str, object], f: Array, unit: str, where: str) -> Spectrum:
     """Return a spectrum from slopes in dB per octave and one level."""
-    slopes = np.array([in_si(v, "", f"{where}.slope") for v in _list(source["slope"], where)])
+    slopes = np.array([_slope(v, f"{where}.slope") for v in _list(source["slope"], where)])
     if len(slopes) != len(f) - 1:
         raise InputError(
             f"{where}: {len(slopes)} slopes between {len(f)} frequencies; give one for each "

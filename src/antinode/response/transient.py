@@ -28,6 +28,7 @@ from .histories import History, history_from
 from .modal import MOST_MODES, Basis
 from .modal_sum import SHAPE, Summed
 from .motion.loops import Closed, summed
+from .motion.oscillators import Gains, Linear, Seen
 from .motion.recurrence import move, move_coupled, move_together, twice_integrated
 from .numbers import plain
 from .quantities import Base, Drive, Output
@@ -119,14 +120,19 @@ class Driven:
     histories : sequence of History
     time_s : array
         Times that are asked for.
+    longest : float
+        No step is longer [s].
     """
 
-    def __init__(self, histories: tuple[History, ...], time_s: Array) -> None:
+    def __init__(
+        self, histories: tuple[History, ...], time_s: Array, longest: float = np.inf
+    ) -> None:
+        self.histories = histories
         kinks = np.concatenate([h.time_s for h in histories])
         inside = kinks[(kinks > time_s[0]) & (kinks < time_s[-1])]
         places = np.sort(np.concatenate([time_s, inside]))
         apart = np.diff(places, prepend=-np.inf) > 1e-12 * max(abs(time_s[-1]), 1e-300)
-        self.time_s = places[apart]
+        self.time_s = _cut(places[apart], longest)
         self.start = np.array([h.after(self.time_s[:-1]) for h in histories]).T
         self.end = np.array([h.before(self.time_s[1:]) for h in histories]).T
         self.asked = np.clip(
@@ -135,6 +141,16 @@ class Driven:
         self.value = np.vstack([self.start, self.end[-1:]])
         slope = (self.end - self.start) / np.diff(self.time_s)[:, None]
         self.slope = np.vstack([slope, slope[-1:]])
+
+
+def _cut(time_s: Array, longest: float) -> Array:
+    """Return times with as many more between them as makes no step longer."""
+    h = np.diff(time_s)
+    parts = np.maximum(np.ceil(h / longest * (1 - 1e-9)), 1).astype(int)
+    first = np.repeat(np.cumsum(parts) - parts, parts)
+    share = (np.arange(np.sum(parts)) - first) / np.repeat(parts, parts)
+    inside = np.repeat(time_s[:-1], parts) + share * np.repeat(h, parts)
+    return np.append(inside, time_s[-1])
 
 
 class Histories:
@@ -228,14 +244,78 @@ class Histories:
         phase = np.where(elastic, own.doubts / (2 * np.sqrt(safe)) * rings, 0.0)
         return np.asarray(phase + SHAPE * np.max(np.where(elastic, own.doubts / safe, 0.0)))
 
-    def _ground(self) -> tuple[Array, Array, Array]:
-        """Return displacement, velocity and acceleration of the ground."""
-        driven, model = self.driven, self.summed.model
-        cases = [
+    @property
+    def linear(self) -> Linear:
+        """The modes, and the ground as one that nothing holds, as `oscillators` takes them."""
+        own, driven = self.summed.basis, self.driven
+        n = len(own.omega2)
+        K, C = np.zeros((2, n + 1, n + 1))
+        K[:n, :n] = np.diag(own.omega2) + (0.0 if own.coupling is None else own.coupling)
+        C[:n, :n] = own.damping
+        ground = np.zeros(own.drives.shape[1])
+        ground[self._shaken] = 1.0
+        moved = self._ground()
+        q, rate = (np.column_stack([part, moved[k]]) for k, part in enumerate(self.motion))
+        into = np.vstack([own.drives, ground])
+        return Linear(K, C, into, driven.time_s, q, rate, driven.start, driven.end)
+
+    def seen(self, row: int, linear: Linear) -> Seen:
+        """Return what an output of this family takes of `linear`."""
+        own, output, rest = self.summed.basis, self.summed.model.outputs[row], self.summed.rest[row]
+        absolute = float(output.moves and not output.relative)
+        c, none = np.append(own.outputs[row], absolute), np.zeros_like(rest)
+        if output.rate == 0:
+            return Seen(c, np.append(own.drag[row], 0.0), rest, none)
+        if output.rate == 1:
+            return Seen(np.zeros_like(c), c, none, rest)
+        return Seen(-c @ linear.stiffness, -c @ linear.damping, c @ linear.into, none)
+
+    def felt(self, gains: Gains) -> Array:
+        """Return what oscillators on each output may feel of what `left_out` states, (outputs, f).
+
+        Mode by mode: slow ones hardly feel fast modes.
+        """
+        own, outputs = self.summed.basis, self.summed.model.outputs
+        upper = np.argsort(own.omega2, kind="stable")[len(own.omega2) // 2 :]
+        weight = self._doubtful()
+        weight[upper] += _TAIL
+        rest = own.drives / (np.abs(own.omega2) + self.summed.shift)[:, None]
+        still = np.zeros((2, len(own.omega2)))
+        still[:, upper] = 1.0
+        q = self.motion.q - still[0] * (self.driven.value @ rest.T)
+        rate = self.motion.rate - still[0] * (self.driven.slope @ rest.T)
+        most = [np.max(np.abs(p), axis=0) for p in (*self.motion, self.acceleration, q, rate)]
+        none = np.full(len(weight), np.inf)
+        slid = most[1] + np.abs(np.diag(own.damping)) * most[0]  # omega^2 times what is integrated
+        slid = np.where(own.omega2 > 0, slid / np.where(own.omega2 > 0, own.omega2, 1.0), np.inf)
+        parts = {
+            0: gains.of(most[3], slid, none),
+            1: gains.of(most[4], most[3], none),
+            2: gains.of(most[2], most[1], most[0]),
+        }
+        chord = np.array([h.chord for h in self.driven.histories])
+        found = np.zeros((len(outputs), len(gains.level)))
+        for row, output in enumerate(outputs):
+            c = np.abs(own.outputs[row])
+            found[row] = parts[output.rate] @ (c * weight)
+            D, V, A = chorded(own, chord, self.driven.time_s[-1])
+            swings = [(D, none, none), (V, D, none), (A, V, D)][output.rate]
+            found[row] += gains.of(*swings) @ c
+        return found
+
+    @property
+    def _shaken(self) -> list[int]:
+        """Which drives are the motion of the ground."""
+        model = self.summed.model
+        return [
             case
             for case, drive in enumerate(model.drives)
             if isinstance(drive, Base) and drive.family == self.summed.family
         ]
+
+    def _ground(self) -> tuple[Array, Array, Array]:
+        """Return displacement, velocity and acceleration of the ground."""
+        driven, cases = self.driven, self._shaken
         start, end = (part[:, cases].sum(axis=1)[:, None] for part in (driven.start, driven.end))
         displacement, velocity = twice_integrated(driven.time_s, start, end)
         return displacement[:, 0], velocity[:, 0], driven.value[:, cases].sum(axis=1)
@@ -264,17 +344,16 @@ def histories_of(problem: Problem) -> tuple[History, ...]:
 
 def respond(
     model: Model, histories: tuple[History, ...], time_s: Array, modes: int | None
-) -> tuple[Array, Array, Array, Driven, tuple[Basis, ...], int]:
-    """Return outputs on the grid of kinks, errors, the part of chords, grid, modes, number."""
+) -> tuple[Array, Array, Array, Driven, tuple[Basis, ...], tuple[Histories, ...]]:
+    """Return outputs on the grid of kinks, errors, the part of chords, grid, modes, families."""
     driven = Driven(histories, time_s)
     y = np.zeros((len(model.outputs), len(driven.time_s)))
     error, chords = np.zeros(len(y)), np.zeros(len(y))
-    bases, count = [], 0
+    parts: list[Histories] = []
     for family in model.families:
         number = modes or _FIRST
         while True:
             own = Histories(summed(model, family, number), driven)
-            n = len(own.summed.basis.omega2)
             part = own.values()
             wrong = own.left_out(part)
             peak = np.max(np.abs(part), axis=1)
@@ -282,23 +361,34 @@ def respond(
                 break
             number *= 2
         y, error = y + part, error + wrong
-        chords = chords + _chords(own.summed, histories)
-        bases.append(own.summed.basis)
-        count += n
-    return y, error + chords, chords, driven, tuple(bases), count
+        chords = chords + _chords(own.summed, histories, time_s[-1])
+        parts.append(own)
+    return y, error + chords, chords, driven, tuple(p.summed.basis for p in parts), tuple(parts)
 
 
-def _chords(summed: Summed | Closed, histories: tuple[History, ...]) -> Array:
-    """Return how far chords may move outputs: each mode doubles at most what it does at rest."""
+def _chords(summed: Summed | Closed, histories: tuple[History, ...], duration_s: float) -> Array:
+    """Return how far chords may move outputs."""
     own, model = summed.basis, summed.model
-    chord = np.array([h.chord for h in histories])
-    stiff = np.abs(own.omega2)
-    static = np.where(stiff > 1e-9 * np.max(stiff), 1 / np.where(stiff > 0, stiff, 1.0), 0.0)
-    found = np.zeros(len(model.outputs))
-    for row, output in enumerate(model.outputs):
-        rate = np.sqrt(stiff) ** output.rate
-        found[row] = 2 * np.abs(own.outputs[row]) * static * rate @ np.abs(own.drives) @ chord
-    return found
+    moved = chorded(own, np.array([h.chord for h in histories]), duration_s)
+    return np.array(
+        [np.abs(own.outputs[row]) @ moved[output.rate] for row, output in enumerate(model.outputs)]
+    )
+
+
+def chorded(own: Basis, chord: Array, duration_s: float) -> tuple[Array, Array, Array]:
+    """Return how far chords move the coordinates, their rates and accelerations, at most.
+
+    Each mode doubles at most what it does at rest; what nothing holds drifts.
+    """
+    stiff, by = np.abs(own.omega2), 2 * np.abs(own.drives) @ chord
+    held = stiff > 1e-9 * np.max(stiff)
+    omega = np.sqrt(np.where(held, stiff, 1.0))
+    drift = by / 2 * duration_s
+    return (
+        np.where(held, by / omega**2, drift * duration_s / 2),
+        np.where(held, by / omega, drift),
+        by,
+    )
 
 
 @out_of_range_is_an_error()
@@ -311,7 +401,7 @@ def solve_transient(problem: Problem) -> TransientResult:
     model = Model(
         problem.beam, file.drives, file.outputs, damping, 1 / file.time.to, problem.backend
     )
-    y, error, _, driven, bases, count = respond(model, histories, time, file.response.modes)
+    y, error, _, driven, bases, _ = respond(model, histories, time, file.response.modes)
     largest, between = peaks_of(driven.time_s, y)
     return TransientResult(
         problem.title,
@@ -321,7 +411,7 @@ def solve_transient(problem: Problem) -> TransientResult:
         error,
         largest,
         error + between,
-        count,
+        sum(len(own.omega2) for own in bases),
         bases,
         damping,
         tuple(slow_warnings(model, y, error)),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .response_table import scale_of
+from .response_table import JUDGED, error_words, scale_of
 from .style import GREY, INK, PALETTE, WIDTH, styled
 
 if TYPE_CHECKING:
@@ -84,9 +84,11 @@ def _draw_limit(panel: Axes, verdict: Any, power: int) -> None:
     worst = verdict.frequency_hz
     panel.plot([worst], [verdict.felt / factor], "o", color=LIMIT, ms=4, zorder=5)
     panel.legend(loc="best")
-    words = "within" if verdict.passed else "EXCEEDED"
+    words = JUDGED[verdict.verdict]
+    error = error_words(verdict.error_db)
+    margin = verdict.margin_words + (f" +- {error} dB" if error else "")
     panel.set_title(
-        f"{verdict.name}, x = {verdict.x:.4g} m: {words}, margin {verdict.margin_db:+.1f} dB at "
+        f"{verdict.name}, x = {verdict.x:.4g} m: {words}, margin {margin} at "
         f"{worst:.4g} Hz ({verdict.mode}{', ' + verdict.force if verdict.force else ''})",
         color=INK if verdict.passed else LIMIT,
         fontsize="medium",

@@ -18,11 +18,14 @@ if TYPE_CHECKING:
     from antinode.response.equipment import Verdict
     from antinode.response.harmonic import HarmonicResult
     from antinode.response.modal import Basis
-    from antinode.response.random import OutputStatistics, RandomResult
+    from antinode.response.random import RandomResult
     from antinode.response.shock import ShockResult
+    from antinode.response.spectral.moments import OutputStatistics
     from antinode.response.transient import TransientResult
 
 _MOST_PEAKS = 4
+JUDGED = {"yes": "within", "no": "EXCEEDED", "not decided": "NOT DECIDED"}
+VERDICTS = {"yes": "yes", "no": "NO", "not decided": "not decided"}
 Row = tuple[str, ...]
 
 
@@ -188,17 +191,23 @@ def verdict_rows(verdicts: Sequence[Verdict]) -> Rows:
         rms = "" if own.rms is None else f"{own.rms / STANDARD_GRAVITY:.3g}"
         cells = (
             f"{own.x:.5g}",
-            f"{own.margin_db:+.2f}",
-            "yes" if own.passed else "NO",
+            own.margin_words,
+            error_words(own.error_db),
+            VERDICTS[own.verdict],
             f"{own.frequency_hz:.5g}",
             own.mode,
             own.force,
             rms,
         )
         rows.append((own.name, *cells))
-    heads = ("equipment", "x [m]", "margin [dB]", "verdict", "at [Hz]", "mode", "force", "rms [g]")
-    narrow = [(0, 2, 3, 4, 5, 6, 7), (0, 2, 3, 4, 5, 6), (0, 2, 3, 4, 5), (0, 2, 3)]
-    return Rows(heads, rows, (0, 3, 5, 6), narrow)
+    judged = ("margin [dB]", "+-", "verdict", "at [Hz]", "mode", "force", "rms [g]")
+    narrow = [(0, *range(2, 9)), (0, *range(2, 8)), (0, *range(2, 7)), (0, 2, 3, 4)]
+    return Rows(("equipment", "x [m]", *judged), rows, (0, 4, 6, 7), narrow)
+
+
+def error_words(error_db: float) -> str:
+    """Return the error of a margin; nothing where the margin is said in words."""
+    return f"{error_db:.1e}" if 0 < error_db < np.inf else ""
 
 
 class Shown(NamedTuple):
@@ -229,7 +238,7 @@ def _shock_rows(result: ShockResult) -> Rows:
     for row, output in enumerate(result.outputs):
         size, k = scale_of(output.unit), int(np.argmax(result.srs[row]))
         cells = (f"{result.srs[row, k] / size.factor:.5g}", size.unit)
-        more = (f"{result.error[row] / size.factor:.1e}", f"{f[k]:.5g}")
+        more = (f"{result.off[row, k] / size.factor:.1e}", f"{f[k]:.5g}")
         rows.append((output.name, *cells, *more))
     heads = ("output", "largest SRS", "unit", "+-", "at [Hz]")
     return Rows(heads, rows, (0, 2), [(0, 1, 2, 3)])

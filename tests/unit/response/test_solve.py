@@ -45,20 +45,18 @@ def asked(folder, N, share, kind, more=""):
     return run("response", folder / "response.toml")
 
 
-@pytest.mark.parametrize("kind", ["harmonic", "random"])
-@pytest.mark.parametrize(("N", "share"), [(25.0, 0.0), (25.0, 1.0)])
-def test_what_grows_by_itself_is_said(tmp_path, kind, N, share):
-    ended = asked(tmp_path, N, share, kind)
+@pytest.mark.parametrize(("kind", "share"), [("harmonic", 0.0), ("random", 1.0)])
+def test_what_grows_by_itself_is_said(tmp_path, kind, share):
+    ended = asked(tmp_path, 25.0, share, kind)
     assert ended.code == 0
     assert "not stable under its axial force" in " ".join(ended.out.split())
     assert "not stable" not in asked(tmp_path, 2.0, share, kind).out
 
 
-@pytest.mark.parametrize("kind", ["harmonic", "random"])
-def test_a_loss_makes_it_flutter_below_the_load_without_one(tmp_path, kind):
+def test_a_loss_makes_it_flutter_below_the_load_without_one(tmp_path):
     """Beck's column flutters at 20.05; with internal damping from about 11 (Ziegler, 1952)."""
     for N, grows in ((15.0, True), (8.0, False)):
-        ended = asked(tmp_path, N, 1.0, kind)
+        ended = asked(tmp_path, N, 1.0, "harmonic")
         assert ("dampers and feedback" in " ".join(ended.out.split())) == grows
         assert ended.code == 0
     assert asked(tmp_path, 15.0, 1.0, "harmonic", EQUIPMENT).code == 1

@@ -50,7 +50,8 @@ def response(
 
     The response file names a beam or a case, its damping, forces or moving supports, and what is
     asked: harmonic amplitudes, random vibration, histories, shock spectra, and the margins of
-    equipment. Exit code 3 if a piece of equipment exceeds what it is qualified for.
+    equipment, each with its error. Exit code 3 unless all equipment is within what it is qualified
+    for, its margin's error included.
 
     - Example: **antinode response response.toml**
     - Example: **antinode response response.toml --plot response.png**

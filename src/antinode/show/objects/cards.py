@@ -17,7 +17,7 @@ from antinode.beam.checks import TABLES
 from antinode.inputs.reading import COLUMN_UNITS
 from antinode.modes.solve import beam_of
 from antinode.show.printing import end_force_text, mode_cells
-from antinode.show.response_table import scale_of
+from antinode.show.response_table import JUDGED, error_words, scale_of
 from antinode.text import counted
 
 from .lines import about_beam, span_of
@@ -188,13 +188,13 @@ def response_card(result: Any) -> str:
     if verdicts:
         rows = [
             (
-                *(v.name, f"{v.x:.4g}", "within" if v.passed else "EXCEEDED"),
-                *(f"{v.margin_db:+.1f}", f"{v.frequency_hz:.4g}", v.mode),
+                *(v.name, f"{v.x:.4g}", JUDGED[v.verdict], v.margin_words),
+                *(error_words(v.error_db), f"{v.frequency_hz:.4g}", v.mode),
             )
             for v in verdicts
         ]
-        headings = ("equipment", "x [m]", "verdict", "margin [dB]", "at [Hz]", "mode")
-        tables.append(html_table(headings, rows, (0, 2, 5)))
+        judged = ("verdict", "margin [dB]", "± error", "at [Hz]", "mode")
+        tables.append(html_table(("equipment", "x [m]", *judged), rows, (0, 2, 6)))
     return card(result.title, about, _response_picture(result), tables, result.warnings)
 
 

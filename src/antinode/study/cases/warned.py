@@ -55,6 +55,13 @@ RESPONSE_MESSAGES = (
      "but its resonances are not known well enough for every peak; a narrow one may be missed"),
     ("modes left out", "modes left out still change some histories by more than 0.5 %: see the "
      "errors of the response"),
+    ("nothing limits", "nothing limits what some equipment feels: without damping it has no "
+     "margin"),
+    ("nothing is felt", "nothing is felt by some equipment beyond the error of the computation: "
+     "its margin has no end"),
+    ("not decided", "the margin of some equipment is within its error: not decided"),
+    ("not all is judged", "some equipment is not judged over the whole band: what it may feel, or "
+     "the response, ends before"),
     ("", "the response warns of something: 'antinode response' of that case alone tells it"),
     (None, "the response could not be computed, or has no verdict since the body is not stable"),
 )  # fmt: skip

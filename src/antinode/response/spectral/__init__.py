@@ -1,0 +1,1 @@
+"""Spectra that drive a beam, and what outputs come to under them."""
