@@ -7,17 +7,12 @@ import math
 from nicegui import events, ui
 
 from antinode.app.display import number_text
+from antinode.app.elements import Slider, TextField
 from antinode.app.inputs import Input
 from antinode.app.session import Session
 from antinode.app.state import Value
 from antinode.vehicle.case import Case
 from antinode.vehicle.hydrodynamics.cavitation_number import resolve_cavitation
-
-
-class Slider(ui.slider):
-    """A slider that moves in the browser at once, whatever the server is busy with."""
-
-    LOOPBACK = False
 
 
 class Field:
@@ -42,19 +37,19 @@ class Field:
                 if item.path in session.state.view.sliders:
                     self._build_remover()
                 self._text = (
-                    ui.input(value=self._shown(item.value))
+                    TextField(self._shown(item.value))
                     .props(f'dense borderless aria-label="{named}" suffix="{self.unit.name}"')
                     .props('input-class="an-number" maxlength=60')
                     .classes("an-input an-longunit" if len(self.unit.name) > 6 else "an-input")
                     .mark(f"field-{item.path}")
                 )
             self._slider = (
-                Slider(min=self._ends[0], max=self._ends[1], step=self._step)
+                Slider(self._of(item.value), *self._ends, self._step)
                 .props(f'dense aria-label="{named}"')
                 .mark(f"slider-{item.path}")
                 .classes("an-slider")
             )
-            self._slider.props("thumb-size=14px track-size=3px").value = self._of(item.value)
+            self._slider.props("thumb-size=14px track-size=3px")
             self._message = ui.label("").classes("an-message").props('role="alert"')
             self._message.visible = False
         self._there = self._of(item.value)  # where the slider stands in the browser
