@@ -1,15 +1,18 @@
 """How fast the page answers in a real browser: python benchmarks/app.py (writes benchmarks/app.md).
 
-A slider is moved by one step of the keyboard. Measured in the browser, from the key to the moment
-at which a picture has drawn its new data: the last of all pictures, the curve over thrust with its
-first points. Needs chromium and playwright; runs on loopback for some two minutes.
+A slider is moved by one step of the keyboard, each time to a value where it has not been: the
+server keeps what it has computed. Measured in the browser, from the key to the moment at which a
+picture has drawn its new data: the last of all pictures, the curve over thrust with its first
+points. Needs chromium and playwright; runs on loopback for some two minutes.
 """
 
+import json
 import os
 import statistics
 import sys
 import time
 from pathlib import Path
+from urllib.parse import urlencode
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
@@ -46,10 +49,25 @@ MEASURE = """async ([label, key]) => {
 }"""
 
 
+FARTHER = """(label) => {
+    const slider = document.querySelector(`.an-slider[aria-label^="${label}"]`);
+    const value = (name) => Number(slider.getAttribute(`aria-value${name}`));
+    const [low, now, high] = ['min', 'now', 'max'].map(value);
+    return now - low < high - now ? 'ArrowRight' : 'ArrowLeft';
+}"""
+
+
 def moves(tab, label, times):
-    """Move a slider to and fro; return the times of each move by picture [ms]."""
-    keys = ["ArrowRight", "ArrowLeft"] * times
-    return [tab.page.evaluate(MEASURE, [label, key]) for key in keys[:times]]
+    """Move a slider towards its farther end; return the times of each move by picture [ms]."""
+    key = tab.page.evaluate(FARTHER, label)
+    return [tab.page.evaluate(MEASURE, [label, key]) for _ in range(times)]
+
+
+def another(address, k, **view):
+    """Return a link to a case of its own, which the server has not solved yet."""
+    values = {"condition.cavitator_angle": 0.001 * k}
+    query = {"set": json.dumps(values)} | {key: json.dumps(value) for key, value in view.items()}
+    return f"{address}?{urlencode(query)}"
 
 
 def medians(rows):
@@ -76,28 +94,27 @@ def measure(browser, address):
         yield f"| {label} | " + " | ".join(f"{v:.0f}" for v in medians(rows)) + " |"
     yield "| **all sliders** | " + " | ".join(f"**{v:.0f}**" for v in medians(everything)) + " |"
     yield ""
-    tab.open(address + '?panel="response"')
+    tab.open(another(address, 1, panel="response"))
     moves(tab, "thrust", 2)
     times = [row["response"] for row in moves(tab, "thrust", MOVES) if "response" in row]
     yield "| the response panel chosen | curve and peaks |"
     yield "|---|---|"
     yield f"| thrust | {statistics.median(times):.0f} |"
     yield ""
-    others = [Tab(browser, address) for _ in range(SESSIONS - 1)]
+    others = [Tab(browser, another(address, 2 + k)) for k in range(SESSIONS - 1)]
     rows = moves(tab, "thrust", MOVES)
     idle = medians(rows)
     for other in others:
         other.page.evaluate(
-            """() => { let k = 0; setInterval(() => {
+            """() => { setInterval(() => {
                 const s = document.querySelector('.an-slider[aria-label^="speed"]')
                     .querySelector('.q-slider__track-container');
-                const code = k++ % 2 ? 39 : 37;
-                s.dispatchEvent(new KeyboardEvent('keydown', {keyCode: code, bubbles: true}));
+                s.dispatchEvent(new KeyboardEvent('keydown', {keyCode: 39, bubbles: true}));
             }, 5000 + 1000 * Math.random()); }"""
         )
     rows = moves(tab, "thrust", MOVES)
     busy = medians(rows)
-    yield "| 20 sessions open | first picture | all but the curve | all |"
+    yield "| 20 sessions, the response chosen | first picture | all but the curve | all |"
     yield "|---|---|---|---|"
     for name, values in (("the others rest", idle), ("each moves a slider every 5 s", busy)):
         yield f"| {name} | " + " | ".join(f"{v:.0f}" for v in values) + " |"

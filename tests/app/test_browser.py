@@ -78,6 +78,8 @@ def test_each_slider_moves_every_picture(tab, address, label):
     tab.page.evaluate(
         """() => {
             window.seen = new Set();
+            window.updates = 0; // of elements: each draws the whole page anew
+            window.socket.on("update", () => window.updates++);
             for (const [name, view] of Object.entries(window.antinode.views)) {
                 const show = view.show;
                 view.show = (data) => { window.seen.add(name); show.call(view, data); };
@@ -90,6 +92,7 @@ def test_each_slider_moves_every_picture(tab, address, label):
     seen = set(tab.page.evaluate("[...window.seen]"))
     wanted = {"forces", "modes", "frequencies", "characteristic", "body", "curve", "vehicle"}
     assert wanted <= seen
+    assert tab.page.evaluate("window.updates") <= 1  # that Undo is possible now
     assert_clean(tab, address)
 
 

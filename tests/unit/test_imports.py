@@ -47,7 +47,7 @@ ROOMS = {
     ),
     "app": (
         *("ground", "riccati", "inputs", "beam", "modes", "vehicle", "stability"),
-        *("response", "show", "examples"),
+        *("response", "show", "examples", "study"),
     ),
     "cli": ("ground", "riccati", "inputs", "beam", "modes", "vehicle", "show", "examples"),
 }

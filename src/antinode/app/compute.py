@@ -98,9 +98,7 @@ def quick_answer(state: State) -> Answer:
 
     def compute() -> Answer:
         problem, beam = state.problem, state.beam
-        answer = Answer(problem, beam, quick_modes(beam, wanted_modes(problem)))
-        _ = answer.characteristic
-        return answer
+        return Answer(problem, beam, quick_modes(beam, wanted_modes(problem)))
 
     return kept(("quick", state.key), compute)
 
@@ -117,9 +115,7 @@ def full_answer(state: State) -> Answer:
     def compute() -> Answer:
         quick, solve = quick_answer(state), state.problem.solve
         result = solve_modes(quick.beam, solve.modes, tolerance=solve.tolerance, unloaded=True)
-        answer = Answer(quick.problem, quick.beam, _exact(quick.quick, result), result)
-        answer.__dict__["characteristic"] = quick.characteristic
-        return answer
+        return Answer(quick.problem, quick.beam, _exact(quick.quick, result), result)
 
     return kept(("full", state.key), compute)
 

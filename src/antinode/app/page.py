@@ -118,16 +118,21 @@ class Page:
         """Show the present values in the fields."""
         with self._client:
             self._fields.refresh(problem_inputs, moving)
-            self._more.refresh()
-            self._name_curve()
-            state = self.session.state
-            self._switches.refresh(switches(state.problem, state.beam, state.original))
-            if self._attachments is not None:
-                self._attachments.refresh()
+            if not moving:
+                self._refresh_lists()
             self._undo.set_enabled(self.session.history.can_undo)
             pinned = bool(self.session.state.view.baseline)
             self._pin.text = "Unpin" if pinned else "Pin"
             self._stations.refresh()
+
+    def _refresh_lists(self) -> None:
+        """Offer what there is now; while a slider moves that may wait until it is let go."""
+        state = self.session.state
+        self._more.refresh()
+        self._name_curve()
+        self._switches.refresh(switches(state.problem, state.beam, state.original))
+        if self._attachments is not None:
+            self._attachments.refresh()
 
     def complain(self, path: str, sentence: str) -> None:
         """Mark what is wrong at its field."""

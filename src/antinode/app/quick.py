@@ -2,17 +2,18 @@
 
 Frequencies are the compiled ones, to 1e-4; shapes are those of one chain at these frequencies.
 Where shear, foundation or curved columns take part two chains are extrapolated, one twice as fine
-as the other. Modes that coincide, flutter or are damped go through `solve_modes` instead.
+as the other. Modes that coincide, flutter or are damped go through `solve_modes` instead. Cases of
+a vehicle along one input are solved side by side, as those of a study.
 """
 
 from __future__ import annotations
 
 import threading
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from antinode.arrays import Array
+from antinode.arrays import Array, Integers
 from antinode.beam.attachments import is_damped
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FAMILIES
@@ -25,13 +26,22 @@ from antinode.modes.solve import solve_modes
 from antinode.modes.solvers import solver_of
 from antinode.riccati.arrays import Complex
 from antinode.riccati.chain import Chain
+from antinode.study.cases.allowed import outside_range
+from antinode.study.cases.beams import CaseBeams, beams_on_arrays
+from antinode.study.cases.bending import solve_free
+from antinode.study.cases.reasons import PAST_BUCKLING
+from antinode.vehicle.case import Case
+from antinode.vehicle.numbers import Keys, is_vectorised
+from antinode.vehicle.refusals import OUT_OF_RANGE
 
 QUICK_FAMILY = BENDING
 """The only family that is solved at once; the others come with the full solve."""
 TOLERANCE = 1e-4
+_WIDTH = 1e-6  # relative, of brackets of many cases
 _POINTS = 121
 _REFINEMENT = 2  # of the chain whose shapes are shown
 _MODES_PER_REFINEMENT = 8
+_RIGID = 2  # modes of a body that nothing holds
 _PARTED = 1e-6  # relative distance of omega^2 below which shapes need `solve_modes`
 
 
@@ -67,6 +77,61 @@ def warm_up() -> None:
 def quick_omega2(beam: Beam, modes: int) -> Array:
     """Return omega^2 of the first bending modes, for a curve."""
     return _found(beam, modes)[0]
+
+
+def fits_side_by_side(case: Case, keys: Keys) -> bool:
+    """Tell whether cases of a vehicle that differ in one number can be solved side by side."""
+    return is_vectorised(keys) and not case.model.water_answers
+
+
+def quick_cases(case: Case, keys: Keys, values: Array, modes: int) -> tuple[Array, Integers]:
+    """Return omega^2 of the first bending modes of cases that differ in one number.
+
+    Parameters
+    ----------
+    case : Case
+    keys : tuple
+        Of the number; `fits_side_by_side` holds for it.
+    values : array, shape (cases,)
+        [SI].
+    modes : int
+
+    Returns
+    -------
+    omega2 : array, shape (cases, modes)
+        [rad^2/s^2]; NaN where the case is refused.
+    alone : array of int
+        Cases to be solved by themselves: what flutters, or is too far from its extrapolation.
+    """
+    outside = np.where(outside_range(case, keys, values), OUT_OF_RANGE, 0)
+    beams = beams_on_arrays(case, {keys: values}, outside)
+    refinement = _refinement(modes + _RIGID)
+    levels = [_level(beams, modes, refinement * finer) for finer in (1, 2)]
+    known = np.all([np.isin(reason, (0, PAST_BUCKLING)) for _, reason in levels], axis=0)
+    with np.errstate(invalid="ignore"):
+        omega2, _, near = _between(*(values for values, _ in levels))
+    solvable = beams.reason == 0
+    return omega2, np.flatnonzero(solvable & ~(known & near))
+
+
+def _level(beams: CaseBeams, modes: int, refinement: int) -> tuple[Array, Integers]:
+    """Return omega^2 of all chains of a refinement, NaN without one, and why there is none."""
+    omega2, reason = np.full((len(beams.reason), modes), np.nan), beams.reason.copy()
+    for chains in beams.chains(np.flatnonzero(reason == 0), refinement):
+        omega2[chains.rows], _, reason[chains.rows], _ = solve_free(chains, modes, _WIDTH)
+    return omega2, reason
+
+
+def _refinement(modes: int) -> int:
+    """Return the refinement of the coarser of two chains for so many modes, rigid ones too."""
+    return max(1, modes // _MODES_PER_REFINEMENT)
+
+
+def _between(coarse: Array, fine: Array) -> tuple[Array, Array, Any]:
+    """Extrapolate omega^2 of two chains, (..., modes): values, errors, whether all are near."""
+    change = (fine - coarse) / 15
+    near = np.all(np.abs(change) <= 2 * TOLERANCE * np.abs(fine), axis=-1)
+    return fine + change, np.abs(change), near
 
 
 def quick_modes(beam: Beam, modes: int) -> Quick:
@@ -107,7 +172,7 @@ def _extrapolated(beam: Beam, modes: int) -> tuple[Array, Array, Chain] | None:
     rigid = len(rigid_modes(beam, QUICK_FAMILY))
     zeros = exact_zeros(beam, QUICK_FAMILY)
     solver = certifying(solver_of("riccati", choose()), beam, QUICK_FAMILY)
-    refinement = max(1, (modes + rigid) // _MODES_PER_REFINEMENT)
+    refinement = _refinement(modes + rigid)
     levels: list[Array] = []
     for finer in (refinement, 2 * refinement):
         chain = beam.chain(QUICK_FAMILY, finer)
@@ -115,10 +180,8 @@ def _extrapolated(beam: Beam, modes: int) -> tuple[Array, Array, Chain] | None:
         if len(listed) < modes or any(value.imaginary for value in listed[:modes]):
             return None
         levels.append(np.array([value.omega2 for value in listed[:modes]]))
-    change = (levels[1] - levels[0]) / 15
-    if np.any(np.abs(change) > 2 * TOLERANCE * np.abs(levels[1])):
-        return None
-    return levels[1] + change, np.abs(change), chain
+    omega2, error, near = _between(*levels)
+    return (omega2, error, chain) if near else None
 
 
 def _full_modes(beam: Beam, modes: int) -> Quick:

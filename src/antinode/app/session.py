@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any, Protocol
@@ -17,7 +17,7 @@ from urllib.parse import urlencode
 from antinode.errors import AntinodeError, InputError
 
 from .compute import Answer, full_answer, kept, quick_answer
-from .curve import Curve, curve_key, grow_curve
+from .curve import COARSE, FINE, Curve, curve_key, grow_curve
 from .inputs import Input, find_input, sliders
 from .panels.characteristic import characteristic_data
 from .panels.compare import Snapshot, compare_data, snapshot
@@ -42,6 +42,7 @@ _SETTLED = 0.2
 """Time without a change after which the full result is computed [s]."""
 _MOST_KEPT = 12  # snapshots
 PANELS: dict[str, Callable[[Answer], dict[str, Any]]] = {
+    "characteristic": characteristic_data,
     "effects": effects_data,
     "ends": ends_data,
     "stability": stability_data,
@@ -187,7 +188,7 @@ class Session:
     async def _work(self) -> None:
         while True:
             version, state = self._version, self.state
-            steps = self._quick, self._response, self._coarse_curve, self._settled, self._full
+            steps = self._quick, self._chosen, self._coarse_curve, self._settled, self._full
             for step in (*steps, self._panel, self._curves):
                 if not await step(state) or version != self._version:
                     break
@@ -197,15 +198,15 @@ class Session:
     async def _quick(self, state: State) -> bool:
         return await self._show(state, quick_answer)
 
-    async def _response(self, state: State) -> bool:
-        """Send the response at once, after the panels that do not wait for it."""
-        answer, version = self.answer, self._version
-        if state.view.panel != "response" or answer is None:
+    async def _chosen(self, state: State) -> bool:
+        """Send the chosen panel at once where it moves too, after those that do not wait for it."""
+        answer, version, panel = self.answer, self._version, state.view.panel
+        if panel not in ("characteristic", "response") or answer is None:
             return True
-        data = await self.run(lambda: self._response_now(state, answer))
+        data = await self.run(lambda: self._chosen_data(panel, state, answer))
         if version != self._version:
             return False
-        self._send({"response": data})
+        self._send({panel: data})
         return True
 
     async def _settled(self, state: State) -> bool:
@@ -298,7 +299,6 @@ class Session:
             "forces": forces_data(answer, view.units),
             "modes": modes_data(answer, view, self._answer_beside(state)),
             "frequencies": frequencies_data(answer, view),
-            "characteristic": characteristic_data(answer),
             "notes": notes_data(answer, view.units),
             "body": body_data(answer, view.body, view.family),
         }
@@ -309,8 +309,10 @@ class Session:
         if view.panel == "mode":
             data["mode"] = mode_data(answer, view)
         item = self.curve_input(state, inputs)
-        nothing = {"said": "Attach something, or add a slider: this shows what it does."}
-        data["curve"] = nothing if item is None else self._curve_patch(state, item, answer)
+        if item is None:
+            data["curve"] = {"said": "Attach something, or add a slider: this shows what it does."}
+        elif answer.is_damped or self._known_curve(state, item) is not None:
+            data["curve"] = self._curve_patch(state, item, answer)
         return answer, data, inputs
 
     def _beside(self, state: State) -> State | None:
@@ -324,7 +326,9 @@ class Session:
         last = self._beside(state)
         return None if last is None else quick_answer(last)
 
-    def _response_now(self, state: State, answer: Answer) -> dict[str, Any]:
+    def _chosen_data(self, panel: str, state: State, answer: Answer) -> dict[str, Any]:
+        if panel == "characteristic":
+            return characteristic_data(answer)
         try:
             return response_data(state, answer, full=False, beside=self._beside(state))
         except AntinodeError as error:
@@ -339,40 +343,40 @@ class Session:
     def _curve_patch(self, state: State, item: Input, answer: Answer) -> dict[str, Any]:
         omega2 = answer.quick.omega2
         patch: dict[str, Any] = {"cursor": cursor_data(item, omega2, state.view.units)}
-        curve = self._curve
-        if curve is not None and curve.key == curve_key(state, item):
+        curve = self._known_curve(state, item)
+        if curve is not None:
             patch["curve"] = curve_data(curve, item, state.view.units)
-        elif curve is not None and (curve.path != item.path or answer.is_damped):
+        elif self._curve is not None:
             patch["curve"] = no_curve(item, state.view.units)
         return patch
+
+    def _known_curve(self, state: State, item: Input) -> Curve | None:
+        """Return the curve if it is that of a state and an input, however coarse."""
+        curve = self._curve
+        return curve if curve is not None and curve.key == curve_key(state, item) else None
 
     async def _coarse_curve(self, state: State) -> bool:
         if self.answer is not None and self.answer.is_damped:
             return True
-        return await self._grow(state, 1)
+        return await self._grow(state, COARSE)
 
     async def _curves(self, state: State) -> bool:
         damped = self.answer is not None and self.answer.is_damped  # a point takes a second then
-        return await self._grow(state, 1 if damped else 4)
+        return await self._grow(state, COARSE if damped else FINE)
 
-    async def _grow(self, state: State, levels: int) -> bool:
-        """Compute the curve so far that it has so many levels, and send each of them."""
+    async def _grow(self, state: State, wanted: int) -> bool:
+        """Compute the curve until it has so many points, and send each that is finer."""
         item, answer = self.curve_input(state, self.inputs), self.answer
         if item is None or answer is None:
             return True
-        version, key = self._version, curve_key(state, item)
-        have = self._curve.key == key if self._curve else False
-        points = len(self._curve.values) if self._curve and have else 0
-        if points >= 4 * 2 ** (levels - 1) + 1:
-            return True
-        growing = grow_curve(state, item)
-        for _ in range(levels):
-            curve = await self.run(lambda: _following(growing))
-            if curve is None or version != self._version:
+        version, curve = self._version, self._known_curve(state, item)
+        growing = grow_curve(state, item, curve)
+        while curve is None or len(curve.values) < wanted:
+            curve = await self.run(lambda: next(growing))
+            if version != self._version:
                 return False
-            if len(curve.values) > points:
-                self._curve = curve
-                self._send({"curve": self._curve_patch(state, item, answer)})
+            self._curve = curve
+            self._send({"curve": self._curve_patch(state, item, answer)})
         return True
 
     async def run(self, work: Callable[[], Any]) -> Any:
@@ -419,7 +423,3 @@ class Session:
         state = self.state
         answer: Answer = await self.run(lambda: full_answer(state))
         return answer
-
-
-def _following(curves: Iterator[Curve]) -> Curve | None:
-    return next(curves, None)

@@ -73,9 +73,12 @@ def check_limits(beam: Beam) -> None:
 
 
 def _check_point_masses(beam: Beam) -> None:
+    masses = [item for item in beam.attachments if isinstance(item, PointMass)]
+    if not masses:
+        return
     own = replace(beam, attachments=()).mass
-    for item in beam.attachments:
-        if isinstance(item, PointMass) and item.mass > MOST_POINT_MASS * own:
+    for item in masses:
+        if item.mass > MOST_POINT_MASS * own:
             raise InputError(
                 f"the point mass of {item.mass:g} kg at x = {item.x:g} m is more than "
                 f"{MOST_POINT_MASS:g} times the beam's: check its unit, or hold the beam there by "

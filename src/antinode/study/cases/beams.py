@@ -20,7 +20,7 @@ from antinode.study.design.file import LOAD_OUTPUTS
 from antinode.vehicle.case import Case, vehicle_beam
 from antinode.vehicle.many_beams import Chains, ManyBeams
 from antinode.vehicle.many_loads import ManyLoads, loads_of_many
-from antinode.vehicle.numbers import is_vectorised
+from antinode.vehicle.numbers import Numbers, is_vectorised
 from antinode.vehicle.refusals import OUT_OF_RANGE
 
 from .reasons import BEYOND_LIMITS, NO_BEAM
@@ -65,12 +65,23 @@ def beams_of(cases: Cases) -> CaseBeams:
     reason = np.where(cases.outside(), OUT_OF_RANGE, 0)
     arrays = all(v.kind == "time" or is_vectorised(v.keys) for v in cases.variables)
     arrays = arrays and not cases.study.vehicle_case.model.water_answers
-    return _on_arrays(cases, reason) if arrays else _one_by_one(cases, reason)
+    if arrays:
+        return beams_on_arrays(cases.study.vehicle_case, cases.numbers, reason)
+    return _one_by_one(cases, reason)
 
 
-def _on_arrays(cases: Cases, reason: Integers) -> CaseBeams:
-    case = cases.study.vehicle_case
-    loads = loads_of_many(case.many(cases.numbers, len(cases)))
+def beams_on_arrays(case: Case, numbers: Numbers, reason: Integers) -> CaseBeams:
+    """Return the beams of cases that differ from one in numbers for which `is_vectorised` holds.
+
+    Parameters
+    ----------
+    case : Case
+    numbers : mapping
+        By keys, each (cases,) or (cases, rows).
+    reason : array of int, shape (cases,)
+        What speaks against a case already; else 0.
+    """
+    loads = loads_of_many(case.many(numbers, len(reason)))
     beams = ManyBeams(loads)
     reason = np.where(reason == 0, loads.refusals.code, reason)
     with np.errstate(all="ignore"):
