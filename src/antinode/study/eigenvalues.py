@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from antinode.arrays import Array
+from antinode.beam.attachments import feeds_back
 from antinode.beam.beam import Beam
 from antinode.beam.families import FAMILIES, FamilyName
 from antinode.beam.limits import check_limits
@@ -32,6 +33,8 @@ from antinode.vehicle.derivatives import ChainModes, EigenvalueDerivatives
 from antinode.vehicle.loads import Loads
 from antinode.vehicle.many_beams import sheared_columns
 
+from .complex_modes import ComplexModes, complex_modes
+
 Wanted = Mapping[FamilyName, int]
 _FINEST = 16
 
@@ -47,24 +50,30 @@ class CaseEigenvalues:
         Of a case.
     beam : Beam
     modes : dict
-        `ChainModes` 1 ... n by family, rigid ones left out.
+        `ChainModes` 1 ... n by family, rigid ones left out; `ComplexModes` where the water's
+        stiffness acts.
     """
 
     case: Given
     loads: Loads | None
     beam: Beam
-    modes: Mapping[FamilyName, ChainModes] = field(repr=False)
+    modes: Mapping[FamilyName, ChainModes | ComplexModes] = field(repr=False)
 
     def sensitivity(self, family: FamilyName) -> EigenvalueDerivatives:
         """Return the derivatives of the eigenvalues of a family, of a case."""
         assert self.loads is not None
         assert isinstance(self.case, Case)
+        modes = self.modes[family]
+        assert isinstance(modes, ChainModes)
         beam = self.case.without_added_mass.beam() if self.case.added_masses else self.beam
-        return EigenvalueDerivatives(self.modes[family], beam, self.loads)
+        return EigenvalueDerivatives(modes, beam, self.loads)
 
     def frequencies_hz(self, family: FamilyName) -> Array:
         """Return the frequencies of modes 1, 2, ... [Hz]; negative for a divergent mode."""
-        return signed_hertz(self.modes[family].omega2)
+        modes = self.modes[family]
+        if isinstance(modes, ComplexModes):
+            return modes.frequencies_hz
+        return signed_hertz(modes.omega2)
 
 
 def eigenvalues_of(
@@ -84,9 +93,13 @@ def eigenvalues_of(
     beams = [case.beam() for case in cases]
     for beam in beams:
         check_limits(beam)
-    modes: list[dict[FamilyName, ChainModes]] = [{} for _ in cases]
+    modes: list[dict[FamilyName, ChainModes | ComplexModes]] = [{} for _ in cases]
     for family in FAMILIES:
         rows = [k for k, families in enumerate(wanted) if family in families]
+        answered = [k for k in rows if feeds_back(beams[k].attachments, family)]
+        for k in answered:
+            modes[k][family] = complex_modes(beams[k], wanted[k][family], refinement)
+        rows = [k for k in rows if k not in answered]
         chains = [beams[k].chain(family, refinement) for k in rows]
         own = [beams[k] for k in rows]
         numbers = [wanted[k][family] for k in rows]

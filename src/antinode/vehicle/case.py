@@ -137,23 +137,6 @@ _THEORY = (
 )
 
 
-def check_real(case: Case) -> Case:
-    """Return a case whose modes have no damping, as studies and identification want it.
-
-    Raises
-    ------
-    InputError
-        If the water's stiffness takes part.
-    """
-    if case.model.hydrodynamic_stiffness != "none":
-        raise InputError(
-            "model.hydrodynamic_stiffness: received 'tangent', whose modes are complex; studies "
-            'and identification solve modes without damping: set it to "none", or run \'antinode '
-            "modes' for each case"
-        )
-    return case
-
-
 def vehicle_beam(case: Case, acting: tuple[Tangent, ...] | None = None) -> Beam:
     """Return the vehicle of a case as a free-free beam under the axial force of its loads.
 

@@ -7,22 +7,34 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from antinode.arrays import Array
 from antinode.vehicle.case import Case
 from antinode.vehicle.tangent import QUASI_STEADY
 
 from .beam_warnings import RECOGNISED, recognised
 from .single import Solved
 
-_DELAYED = (
+DELAYED = (
     f"some modes: f L/V is above {QUASI_STEADY:g}, so the water needs longer to pass the body than "
     "its tangents allow for; with them the frequencies are a limit, no prediction"
 )
-_ONE_SIDED = (
+ONE_SIDED = (
     "the planing tail touches on one side: the modes hold up to the amplitude at which that "
     "contact ends, some mm as a rule; 'antinode modes' tells it, and the modes without contact"
 )
 _OWN = "a warning of its own: 'antinode modes' of that case alone says it"
-WATER_MESSAGES = (*(text for _, text in RECOGNISED), _DELAYED, _ONE_SIDED, _OWN)
+WATER_MESSAGES = (*(text for _, text in RECOGNISED), DELAYED, ONE_SIDED, _OWN)
+
+
+def is_one_sided(case: Case) -> bool:
+    """Tell whether a contact of a case ends at some amplitude."""
+    return any(math.isfinite(tangent.room) for tangent in case.tangents)
+
+
+def is_delayed(case: Case, frequency_hz: Array) -> bool:
+    """Tell whether the water needs too long to pass the body for some of its modes."""
+    quick = float(np.nanmax(frequency_hz, initial=0.0))
+    return quick * case.vehicle.length / case.condition.speed > QUASI_STEADY
 
 
 def water_warned(case: Case, families: Sequence[Solved], unlikely: Sequence[str]) -> int:
@@ -44,9 +56,8 @@ def water_warned(case: Case, families: Sequence[Solved], unlikely: Sequence[str]
             if warning not in unlikely
         }
         if solved.is_complex and solved.motion is not None:
-            quick = np.nanmax(solved.motion.frequency_hz, initial=0.0)
-            delayed = quick * case.vehicle.length / case.condition.speed > QUASI_STEADY
-            told |= {_DELAYED} if delayed else set()
-    if any(math.isfinite(tangent.room) for tangent in case.tangents):
-        told.add(_ONE_SIDED)
+            delayed = is_delayed(case, solved.motion.frequency_hz)
+            told |= {DELAYED} if delayed else set()
+    if is_one_sided(case):
+        told.add(ONE_SIDED)
     return sum(1 << WATER_MESSAGES.index(text) for text in told)

@@ -13,7 +13,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, BeforeValidator, Field, create_model, model_validator
+from pydantic import BeforeValidator, Field, create_model, model_validator
 
 from antinode.beam.families import BENDING, FamilyName
 from antinode.beam.file import TABLES, BeamFile
@@ -24,7 +24,7 @@ from antinode.inputs.units import Frozen, Number, Unit
 from antinode.methods import ProblemMethods
 from antinode.study.design.loading import load_subject
 from antinode.study.design.subject import OfBeam, OfVehicle, subject_of
-from antinode.vehicle.case import Case, check_real
+from antinode.vehicle.case import Case
 from antinode.vehicle.condition import OperatingCondition
 
 from .observation_table import read_observations
@@ -272,9 +272,7 @@ class IdentificationFile(_Choices):
 class IdentificationProblem(ProblemMethods, _Choices):
     """A case or a beam file, observations of it, and what of it may change."""
 
-    case: Annotated[Case, AfterValidator(check_real)] | BeamFile = Field(
-        description="where to start"
-    )
+    case: Case | BeamFile = Field(description="where to start")
     case_text: str = Field(
         default="", repr=False, description="its file, whose comments a fitted case keeps"
     )

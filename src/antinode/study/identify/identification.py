@@ -74,7 +74,7 @@ def identify(
         interrupted=found.interrupted,
         evaluations=found.evaluations,
         seconds=time.perf_counter() - began,
-        warnings=tuple(fit_warnings(problem, found, estimates, comparisons)),
+        warnings=tuple(fit_warnings(problem, found, estimates, comparisons, at)),
     )
 
 

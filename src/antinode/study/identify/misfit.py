@@ -1,8 +1,9 @@
 """Residuals of an identification and their derivatives, row by row.
 
 A residual is (f - f_observed) / standard deviation. Its derivatives follow from those of omega^2 by
-every number and column of a case that may change (`effects.py`); those of a beam, whose springs,
-places and dimensions may change too, are differences.
+every number and column of a case that may change (`effects.py`); of complex modes from left and
+right eigenvectors (`riccati/damped/slopes.py`). Those of a beam, whose springs, places and
+dimensions may change too, are differences.
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ import numpy as np
 
 from antinode.arrays import Array
 from antinode.beam.families import FamilyName
-from antinode.errors import AntinodeError, ComputationError
-from antinode.modes.hertz import signed_hertz, signed_hertz_slope
+from antinode.errors import AntinodeError, ComputationError, InputError
+from antinode.modes.hertz import signed_hertz_slope
+from antinode.study.complex_modes import STEP, Beside, ComplexModes
 from antinode.study.design.subject import Given
 from antinode.study.differences import rule
 from antinode.study.eigenvalues import CaseEigenvalues, eigenvalues_of
@@ -47,8 +49,7 @@ class Evaluation:
 
     def fitted_hz(self, row: int, family: FamilyName) -> Array:
         """Return the frequencies that stand against the observed ones [Hz]."""
-        omega2 = self.solved[row].modes[family].omega2
-        return signed_hertz(omega2[self.pairings[row][family].index])
+        return self.solved[row].frequencies_hz(family)[self.pairings[row][family].index]
 
 
 @dataclass(frozen=True)
@@ -74,11 +75,12 @@ class Misfit:
 
     def cases(self, vector: Array) -> Sequence[Given]:
         """Return the case of every row."""
+        return [self._case(vector, k) for k in range(len(self.rows))]
+
+    def _case(self, vector: Array, row: int) -> Given:
+        """Return the case of one row."""
         shared = self.unknowns.apply(self.unknowns.case, vector)
-        return [
-            self.unknowns.apply_row(row.condition(shared), vector, k)
-            for k, row in enumerate(self.rows)
-        ]
+        return self.unknowns.apply_row(self.rows[row].condition(shared), vector, row)
 
     def evaluate(self, vector: Array) -> Evaluation:
         """Compute all rows.
@@ -94,7 +96,24 @@ class Misfit:
             {family: pair(data, one.modes[family]) for family, data in row.families.items()}
             for row, one in zip(self.rows, solved, strict=True)
         )
-        return Evaluation(vector, solved, pairings)
+        found = Evaluation(vector, solved, pairings)
+        self._check_oscillation(found)
+        return found
+
+    def _check_oscillation(self, at: Evaluation) -> None:
+        """Refuse an observed frequency of a complex mode that has none."""
+        for k, row in enumerate(self.rows):
+            for family, data in row.families.items():
+                if not isinstance(at.solved[k].modes[family], ComplexModes):
+                    continue
+                rests = np.flatnonzero(at.fitted_hz(k, family) == 0.0)
+                if len(rests):
+                    raise InputError(
+                        f"observations, row {k + 1}: {family} {data.numbers[rests[0]]} does not "
+                        "oscillate on the water's stiffness, so it has no frequency: number the "
+                        "observed modes as 'antinode modes' lists them (null for those that were "
+                        "not observed), or give their shapes"
+                    )
 
     def residuals(self, at: Evaluation) -> Array:
         """Return the residuals of the data."""
@@ -115,11 +134,26 @@ class Misfit:
         for k, row in enumerate(self.rows):
             derivative = RowDerivative(self.unknowns, k, at.solved[k], slopes)
             for family, data in row.families.items():
-                index = at.pairings[k][family].index
-                omega2 = at.solved[k].modes[family].omega2[index]
+                index, modes = at.pairings[k][family].index, at.solved[k].modes[family]
+                if isinstance(modes, ComplexModes):
+                    block = modes.frequency_slopes(self._beside(at.vector, k))[index]
+                    blocks.append(block / data.sd[:, None])
+                    continue
                 block = derivative.by_vector(family)[index]
-                blocks.append(block * (signed_hertz_slope(omega2) / data.sd)[:, None])
+                slope = signed_hertz_slope(modes.omega2[index]) / data.sd
+                blocks.append(block * slope[:, None])
         return np.concatenate(blocks)
+
+    def _beside(self, vector: Array, row: int) -> list[Beside]:
+        """Return the beams of a row on both sides of each entry of the vector."""
+        low, high = self.unknowns.bounds
+        found = []
+        for k, (entry, item) in enumerate(zip(vector, self.unknowns.items, strict=True)):
+            step = STEP / item.size if item.log else STEP * max(abs(float(entry)), 1.0)
+            ends = max(entry - step, low[k]), min(entry + step, high[k])
+            sides = [self._case(_replaced(vector, k, end), row).beam() for end in ends]
+            found.append(Beside(sides[0], sides[1], float(ends[1] - ends[0])))
+        return found
 
     def _by_differences(self, at: Evaluation) -> Array:
         """Return the derivatives of the residuals as differences; paired modes keep their place."""
@@ -133,8 +167,7 @@ class Misfit:
         return np.stack(columns, axis=1)
 
     def _moved(self, at: Evaluation, entry: int, distance: float) -> Array:
-        vector = at.vector.copy()
-        vector[entry] += distance
+        vector = _replaced(at.vector, entry, float(at.vector[entry]) + distance)
         try:
             return self.residuals(replace(self.evaluate(vector), pairings=at.pairings))
         except AntinodeError as error:
@@ -202,6 +235,13 @@ class RowDerivative:
                     for k, weights in enumerate(item.column.weights.T, first)
                 ]
         return found
+
+
+def _replaced(vector: Array, entry: int, value: float) -> Array:
+    """Return a vector with another entry."""
+    moved = vector.copy()
+    moved[entry] = value
+    return moved
 
 
 def try_evaluate(misfit: Misfit, vector: Array) -> Evaluation | None:

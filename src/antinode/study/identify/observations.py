@@ -20,6 +20,7 @@ from antinode.errors import AntinodeError, InputError
 from antinode.inputs.explain import validate
 from antinode.inputs.places import Keys
 from antinode.inputs.units import to_si
+from antinode.study.complex_modes import ComplexModes
 from antinode.study.design.subject import Changed, Given, subject_of, with_value
 from antinode.text import nearest, short
 from antinode.vehicle.case import Case
@@ -229,7 +230,7 @@ class Pairing:
     mac: Array
 
 
-def pair(data: FamilyData, modes: ChainModes) -> Pairing:
+def pair(data: FamilyData, modes: ChainModes | ComplexModes) -> Pairing:
     """Pair the observed modes of a row with computed ones."""
     index, mac = data.numbers - 1, np.full(len(data.numbers), np.nan)
     if not data.shapes:
@@ -248,10 +249,12 @@ def pair(data: FamilyData, modes: ChainModes) -> Pairing:
     return Pairing(index, mac)
 
 
-def _likeness(shape: ShapeRow, modes: ChainModes) -> Array:
-    """Return the MAC of an observed shape with every computed mode."""
+def _likeness(shape: ShapeRow, modes: ChainModes | ComplexModes) -> Array:
+    """Return the MAC of an observed shape with every computed mode, 0 of what only decays."""
     u, v = np.array(shape.displacement), modes.displacement(np.array(shape.x))
-    return np.asarray((u @ v) ** 2 / ((u @ u) * np.sum(v * v, axis=0)))
+    likeness = np.abs(u @ v) ** 2 / ((u @ u) * np.sum(np.abs(v) ** 2, axis=0))
+    rests = isinstance(modes, ComplexModes) and modes.s.imag == 0.0
+    return np.asarray(np.where(rests, 0.0, likeness))
 
 
 def check_start(rows: Sequence[RowData], cases: Sequence[Given]) -> None:

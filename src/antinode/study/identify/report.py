@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from antinode.beam.families import BENDING
-from antinode.show.printing import new_table, show_warnings
+from antinode.show.printing import new_table, show_left_out, show_warnings
 
 from .result import Estimate, Identification
 from .words import brief, correlations_text, directions_text
@@ -30,6 +30,7 @@ def show_identification(out: Console, result: Identification) -> None:
     for line in (*directions_text(result.estimates), *correlations_text(result.estimates)):
         out.print(escape(line), highlight=False)
     show_warnings(out, result.warnings)
+    show_left_out(out, result.not_modelled)
 
 
 def _summary(result: Identification) -> str:

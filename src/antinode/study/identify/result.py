@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from antinode.beam.families import FamilyName
+from antinode.beam.attachments import feeds_back
+from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
 from antinode.methods import IdentificationMethods
+from antinode.modes.result import not_modelled
 from antinode.study.design.subject import Given, subject_of
 
 from .estimates import Estimates
@@ -153,6 +155,12 @@ class Identification(IdentificationMethods):
         return subject_of(self.case).name
 
     @property
+    def not_modelled(self) -> tuple[str, ...]:
+        """What the model leaves out."""
+        beam = self.case.beam()
+        return not_modelled(beam, feeds_back(beam.attachments, BENDING))
+
+    @property
     def unknowns(self) -> Unknowns:
         """What could change."""
         return self.estimates.unknowns
@@ -239,6 +247,7 @@ class Identification(IdentificationMethods):
             "starts": [start._asdict() for start in self.starts],
             "evaluations": self.evaluations,
             "seconds": self.seconds,
+            "not_modelled": list(self.not_modelled),
             "warnings": list(self.warnings),
         }
 

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from antinode.study.cases.water_warnings import DELAYED, ONE_SIDED, is_delayed, is_one_sided
+from antinode.study.complex_modes import ComplexModes
+from antinode.vehicle.case import Case
+
 from .estimates import Estimates
 from .file import IdentificationProblem
 from .fit import Search
+from .misfit import Evaluation
 from .result import Comparison
 from .suspects import far_from_priors, quality, spoiling_row
 from .unknowns import Unknown
@@ -19,9 +24,10 @@ def fit_warnings(
     found: Search,
     estimates: Estimates,
     comparisons: tuple[Comparison, ...],
+    at: Evaluation,
 ) -> list[str]:
     """Return what a user should know of a fit, a sentence each."""
-    warnings = []
+    warnings = _water_limits(at)
     if found.interrupted:
         warnings.append("interrupted: these are the best values so far, not a minimum")
     elif found.starts and min(found.starts, key=lambda s: s.cost).reason.startswith("the largest"):
@@ -96,3 +102,19 @@ def _far_value(item: Unknown, value: float, distance: float) -> str:
         f"{item.label} = {value:.5g}{unit}, {abs(distance):.2g} standard deviations off "
         f"({item.prior_mean:.5g}{unit}, {sd} {item.prior_sd:.3g})"
     )
+
+
+def _water_limits(at: Evaluation) -> list[str]:
+    """Return what limits modes on the water's stiffness, with the rows that it concerns."""
+    told: dict[str, list[str]] = {DELAYED: [], ONE_SIDED: []}
+    for k, one in enumerate(at.solved, 1):
+        for modes in one.modes.values():
+            if not (isinstance(one.case, Case) and isinstance(modes, ComplexModes)):
+                continue
+            told[DELAYED] += [str(k)] if is_delayed(one.case, modes.frequencies_hz) else []
+            told[ONE_SIDED] += [str(k)] if is_one_sided(one.case) else []
+    return [
+        f"{text} (row {', '.join(rows[:_NAMED])}{', ...' if rows[_NAMED:] else ''})"
+        for text, rows in told.items()
+        if rows
+    ]

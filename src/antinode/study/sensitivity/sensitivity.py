@@ -26,6 +26,8 @@ from antinode.methods import SensitivityMethods
 from antinode.modes.hertz import hertz
 from antinode.modes.result import null
 from antinode.study.cases.chunks import mode_names
+from antinode.study.cases.values import Cases
+from antinode.study.complex_modes import STEP, Beside, ComplexModes
 from antinode.study.design.file import Study, shear_output
 from antinode.study.design.points import Points, points_of
 from antinode.study.design.variables import Variable
@@ -271,13 +273,17 @@ def _result(study: Study, points: Points, data: xarray.Dataset, number: int) -> 
     """Evaluate the cases of a study, so many samples of each arrangement."""
     shear = shear_output(study.case)
     hz, effect = np.asarray(data["frequency_hz"]), np.asarray(data[shear])
-    _check_known(hz[: 2 * number])
+    hz, names = np.where(hz > 0, hz, np.nan), mode_names(study)
+    kept = kept_modes(study, hz[: 2 * number])
     slopes = local_slopes(study, points)
     modes = [
-        _mode(points, name, hz[:, k], {shear: _farthest(effect[:, k])}, number, slopes)
-        for k, name in enumerate(mode_names(study))
+        _mode(points, names[k], hz[:, k], {shear: _farthest(effect[:, k])}, number, slopes)
+        for k in kept
     ]
-    left_out = tuple(_left_out(modes, hz, number))
+    left_out = (
+        *_left_out(modes, hz[:, kept], number),
+        *(left_out_mode(names[k], hz[:, k]) for k in range(len(names)) if k not in kept),
+    )
     return SensitivityResult(
         name=study.name or study.subject.name,
         inputs=tuple(v.name for v in points.variables),
@@ -334,13 +340,36 @@ def _starts(points: Points) -> Array:
     return np.array([np.nan if v.start is None else v.start for v in points.variables])
 
 
-def _check_known(hz: Array) -> None:
-    """Refuse to speak of frequencies that most samples do not have."""
-    known = np.isfinite(hz).all(axis=1).mean()
-    if known < 0.5:
+def kept_modes(study: Study, hz: Array) -> list[int]:
+    """Return the modes that are told of, and refuse to speak of what most samples do not have.
+
+    On the water's stiffness modes stand in the list that do not oscillate, and are left out.
+    """
+    known = np.isfinite(hz)
+    case = study.case
+    answered = isinstance(case, Case) and case.model.water_answers
+    kept = [k for k in range(hz.shape[1]) if not answered or known[:, k].mean() >= _HALF]
+    share = known[:, kept].all(axis=1).mean() if kept else 0.0
+    if share < _HALF:
         raise ComputationError(
-            f"only {known:.0%} of the samples have all frequencies; narrow the distributions"
+            f"only {share:.0%} of the samples have all frequencies; narrow the distributions"
         )
+    return kept
+
+
+_HALF = 0.5
+
+
+def left_out_mode(name: str, hz: Array) -> dict[str, Any]:
+    """Say that a mode is left out."""
+    missing = ~np.isfinite(hz)
+    return {
+        "message": f"{name} does not oscillate in most cases (it is overdamped, or grows alone), "
+        "and is left out here",
+        "count": int(np.count_nonzero(missing)),
+        "share": float(missing.mean()),
+        "first_case": int(np.argmax(missing)),
+    }
 
 
 def _left_out(modes: list[ModeSensitivity], hz: Array, number: int) -> Iterator[dict[str, Any]]:
@@ -418,13 +447,44 @@ def _vehicle_slopes(study: Study, case: Case, points: Points) -> dict[str, tuple
         nothing = np.full(len(points.variables), np.nan)
         return dict.fromkeys(mode_names(study), (np.nan, nothing))
     for family, number in wanted.items():
-        omega2 = solved.modes[family].omega2
+        modes = solved.modes[family]
+        if isinstance(modes, ComplexModes):
+            by_input = modes.frequency_slopes(_beside(points))
+            hz = np.where(modes.s.imag > 0, modes.frequencies_hz, np.nan)
+            for k in range(number):
+                found[f"{family} {k + 1}"] = float(hz[k]), by_input[k]
+            continue
+        omega2 = modes.omega2
         exact = solved.sensitivity(family)
         by_input = np.stack([_by_input(case, exact, v) for v in points.variables], axis=1)
         for k in range(number):
             with np.errstate(all="ignore"):
-                hz = hertz(float(omega2[k]))
-                found[f"{family} {k + 1}"] = hz, by_input[k] / (8 * np.pi**2 * hz)
+                own = hertz(float(omega2[k]))
+                found[f"{family} {k + 1}"] = own, by_input[k] / (8 * np.pi**2 * own)
+    return found
+
+
+def _beside(points: Points) -> list[Beside | None]:
+    """Return the beams of the case on both sides of each input; None by one without a value."""
+    start = _starts(points)
+    centre = np.where(np.isfinite(start), start, 0.0)
+    found: list[Beside | None] = []
+    for k, variable in enumerate(points.variables):
+        place = variable.place
+        low, high = (-math.inf, math.inf) if place is None else (place.low, place.high)
+        if variable.given.factor:
+            low, high = -math.inf, math.inf
+        width = high - low
+        step = STEP * (abs(centre[k]) or (width / 4 if math.isfinite(width) else 1.0))
+        ends = np.array([max(centre[k] - step, low), min(centre[k] + step, high)])
+        values = np.tile(centre, (2, 1))
+        values[:, k] = ends
+        cases = Cases(points.study, points.variables, values)
+        try:
+            sides = [cases.problem(i).beam() for i in range(2)] if np.isfinite(start[k]) else []
+        except AntinodeError:
+            sides = []
+        found.append(Beside(sides[0], sides[1], float(np.ptp(ends))) if sides else None)
     return found
 
 
