@@ -19,7 +19,9 @@ from antinode.report.inputs import beam_inputs, case_inputs
 from antinode.report.numbers import apart, number, percent, small
 from antinode.report.provenance import hash_of
 from antinode.response.solve import solve_response
+from antinode.show.water import water_dict
 from antinode.study.sensitivity.influence import beam_influences, case_influences
+from antinode.vehicle.numbers import replaced
 from cli_run import run
 
 TITLES = [
@@ -167,6 +169,48 @@ def test_every_choice_of_the_end_forces_stands_side_by_side(folder, starter):
         assert told == "–" if not change else abs(float(told) - change) < 0.05
     assert f1["thrust and cavitator follow"] > 1.15 * f1["fixed directions (this file)"]
     assert any(isinstance(b, Figure) for b in blocks)
+
+
+def test_water_that_pushes_back_has_a_chapter(folder):
+    path, wet = folder / "starter" / "case.toml", ["model.hydrodynamic_stiffness=tangent"]
+    document, _ = make_report(path, wet)
+    tables = [
+        texts(b)
+        for b in section(document, "What the water does as the body vibrates").blocks
+        if isinstance(b, Table)
+    ]
+    devices, beside, ends = tables
+    assert [row[0] for row in devices] == ["cavitator", "fin set 1", "planing"]
+    case = load_case(path, wet)
+    result = solve_modes(case, 3, unloaded=True)
+    told = water_dict(case, result)
+    for row, name in ((1, "contact_off"), (2, "without")):
+        shown = [float(cell) for cell in beside[row][1:]]
+        hz = [f for f in told[name]["frequencies_hz"] if f]
+        np.testing.assert_allclose(shown[:3], hz[:3], rtol=1e-5)
+    for row, end in zip(ends, told["contact_ends"], strict=False):
+        assert row[0] == end["mode"]
+        assert float(row[2]) == pytest.approx(1e3 * end["amplitude_m"], rel=5e-3)
+        assert float(row[3]) == pytest.approx(end["acceleration_g"], rel=5e-3)
+    frequencies = texts(first_table(document, "Frequencies"))
+    assert [row[1] for row in frequencies[:3]] == ["overdamped", "divergent", "elastic"]
+    assert float(frequencies[2][3]) == pytest.approx(result.modes[2].damping_ratio, rel=1e-3)
+    sensitivities = texts(first_table(document, "Sensitivities"))
+    (stiffness,) = (row for row in sensitivities if row[0] == "bending stiffness EI")
+    assert stiffness[2:4] == ["–", "–"]
+    column = np.asarray(case.vehicle.stations.bending_stiffness)
+    hz = [
+        solve_modes(
+            replaced(case, ("vehicle", "stations", "bending_stiffness"), column * factor),
+            1,
+            families=["bending"],
+        )
+        .mode("bending", 3)
+        .frequency_hz
+        for factor in (0.999, 1.001)
+    ]
+    change = (hz[1] - hz[0]) / (hz[1] + hz[0]) * 1e3
+    assert float(stiffness[4]) == pytest.approx(change, abs=1e-3)
 
 
 def test_added_mass_is_told_with_its_size_and_counts_in_the_sensitivities(folder):

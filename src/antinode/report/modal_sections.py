@@ -75,16 +75,59 @@ def _svg(name: str, figure: Drawing, part: Bbox | None = None) -> str:
 def frequency_section(result: ModalResult) -> Section:
     """Return the table of frequencies with what certifies them."""
     pieces = ", ".join(f"{n} ({family})" for family, n in result.segments.items())
+    solved = f"Uniform segments: {pieces}; tolerance {number(result.tolerance)}."
+    if result.is_complex:
+        blocks = paragraph(f"{_proof(result)} {solved}"), _complex_table(result.modes)
+        return Section("Frequencies", blocks)
     return Section(
         "Frequencies",
         (
             paragraph(
                 "The counts stand beside each bracket: so many modes lie below its lower and its "
-                "upper end, rigid and divergent ones included. Uniform segments: "
-                f"{pieces}; tolerance {number(result.tolerance)}."
+                f"upper end, rigid and divergent ones included. {solved}"
             ),
             _frequency_table(result.modes),
         ),
+    )
+
+
+def _proof(result: ModalResult) -> str:
+    """Say how far a list with complex modes is proven."""
+    certificate = result.certificate
+    if certificate.get("kind") == "none":
+        return "Modes are complex. That none of them is missing is not proven here."
+    radius = number(certificate["region"]["abs_s_below"], 4)
+    return (
+        f"Modes are complex. All with abs(s) < {radius} /s were found, and no others: the turns of "
+        "the characteristic function around that circle, and around each eigenvalue, prove it."
+    )
+
+
+def _error_of_s(mode: Mode) -> float:
+    return 2 * math.pi * mode.error_hz if mode.error_per_s is None else mode.error_per_s
+
+
+def _complex_table(modes: Sequence[Mode]) -> Table:
+    head = "mode", "kind", "f [Hz]", "damping ratio", "growth [1/s]", "± error [1/s]"
+    rows = [
+        (
+            mode.name,
+            mode.kind,
+            "–" if mode.omega2 < 0 else "0" if mode.omega2 == 0 else _frequency(mode),
+            number(mode.damping_ratio, 4),
+            number(mode.eigenvalue_per_s.real, 5),
+            small(_error_of_s(mode)),
+        )
+        for mode in modes
+    ]
+    marked = [k for k, m in enumerate(modes) if m.number and m.kind in ("divergent", "flutter")]
+    return table(
+        "Modes exp(s t) in order of abs(Im s): frequency abs(Im s)/2π, damping ratio −Re s/abs(s), "
+        "growth Re s. The error is that of s.",
+        head,
+        rows,
+        left=(0, 1),
+        marked=marked,
     )
 
 

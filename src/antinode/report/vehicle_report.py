@@ -18,6 +18,7 @@ from .load_sections import load_sections
 from .modal_sections import axial_section, drawn, frequency_section, result_in_brief
 from .numbers import number, small
 from .provenance import Source, provenance_section, today
+from .water_section import water_section
 from .words import method_section
 
 _MOST_DRAWN = 6
@@ -39,6 +40,7 @@ def vehicle_report(case: Case, result: ModalResult, source: Source, command: str
         frequency_section(result),
         axial_section(result),
         *end_forces_section(case, result),
+        *water_section(case, result),
         shapes_section(result, "the nose"),
         influence_section(case_influences(case, result, _MOST_DRAWN)),
         warnings_section(told),

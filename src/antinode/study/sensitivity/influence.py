@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,9 +26,13 @@ from antinode.errors import AntinodeError
 from antinode.modes.backends import for_one
 from antinode.modes.result import ModalResult
 from antinode.modes.solve import solve_one
+from antinode.riccati.damped.chain import Damped
+from antinode.riccati.damped.slopes import Eigenpairs
+from antinode.study.complex_modes import Beside, ComplexModes
 from antinode.vehicle.case import Case
 from antinode.vehicle.derivatives import ChainModes, EigenvalueDerivatives
 from antinode.vehicle.effects import by_logarithm, effect_of_mass, effects_between
+from antinode.vehicle.numbers import replaced
 from antinode.vehicle.paths import find_place
 
 _STEP = 1e-4  # relative, of what the forces depend on
@@ -58,6 +63,8 @@ class Influence(NamedTuple):
 
 def case_influences(case: Case, result: ModalResult, most: int) -> list[Influence]:
     """Return what moves the bending modes 1 ... n of a vehicle, solved before."""
+    if result.family(BENDING)[0].eigenvalue is not None:
+        return _of_complex(case, result, most)
     omega2 = [mode.omega2 for mode in result.family(BENDING) if mode.number][:most]
     chain = result.solutions[BENDING].chain
     backend = for_one(len(chain.length), len(omega2))
@@ -65,6 +72,60 @@ def case_influences(case: Case, result: ModalResult, most: int) -> list[Influenc
     beam = case.without_added_mass.beam() if case.added_masses else result.beam
     sensitivity = EigenvalueDerivatives(modes, beam, case.loads)
     return [*_of_condition(case, sensitivity), *_of_body(case, sensitivity)]
+
+
+def _of_complex(case: Case, result: ModalResult, most: int) -> list[Influence]:
+    """Return the same of complex modes: loads and tangents move with each input, and nothing rests.
+
+    NaN of modes that do not oscillate.
+    """
+    s = np.array([m.eigenvalue_per_s for m in result.family(BENDING) if m.number][:most])
+    chain = result.solutions[BENDING].chain
+    modes = ComplexModes(Eigenpairs(Damped(chain), s), _REFINEMENT)
+
+    def percent(low: Case, high: Case, step: float, scale: float) -> Array:
+        slope = modes.frequency_slopes([Beside(low.beam(), high.beam(), step)])[:, 0]
+        with np.errstate(all="ignore"):
+            return np.asarray(slope * scale / modes.frequencies_hz)
+
+    found = []
+    for name, key, step, scale, change in _parameters(case):
+        value = getattr(case.condition, key)
+        keys = ("condition", key)
+        try:
+            cases = [replaced(case, keys, value + d) for d in (-step, 0.0, step)]
+            low, high = (percent(*two, step, scale) for two in pairwise(cases))
+        except AntinodeError:
+            continue
+        gap, size = (float(np.nanmax(np.abs(v), initial=0.0)) for v in (high - low, (low, high)))
+        found.append(Influence(name, change, (low + high) / 2, gap > _KINK * size and gap > 0))
+    scalings: dict[str, Callable[[float], Case]] = {
+        "thrust": lambda f: replaced(case, ("condition", "thrust"), case.condition.thrust * f),
+        "mass of the body": lambda f: _with_mass(case, f),
+        "bending stiffness EI": lambda f: _with_column(case, "bending_stiffness", f),
+    }
+    for name, scaled in scalings.items():
+        own = percent(scaled(1 - _STEP), scaled(1 + _STEP), 2 * _STEP, 1.0)
+        found.append(Influence(name, "1 %", own))
+    return found
+
+
+_REFINEMENT = 4
+
+
+def _with_column(case: Case, column: str, factor: float) -> Case:
+    keys = ("vehicle", "stations", column)
+    return replaced(case, keys, np.asarray(getattr(case.vehicle.stations, column)) * factor)
+
+
+def _with_mass(case: Case, factor: float) -> Case:
+    """Return a case all of whose mass is multiplied, parts included."""
+    for state, column in case.vehicle.stations.mass_per_length.items():
+        keys = ("vehicle", "stations", "mass_per_length", state)
+        case = replaced(case, keys, np.asarray(column) * factor)
+    masses = tuple(_scaled(part, factor, "mass_per_length") for part in case.vehicle.masses)
+    vehicle = case.vehicle.model_copy(update={"masses": masses})
+    return case.model_copy(update={"vehicle": vehicle})
 
 
 def _relative(sensitivity: EigenvalueDerivatives, slope: Array) -> Array:
