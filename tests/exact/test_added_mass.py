@@ -11,7 +11,7 @@ from following_beams import _scaled
 import antinode as an
 from antinode.study.cases.chunks import compute_chunk
 from antinode.study.design.points import points_of
-from antinode.study.sensitivity.sensitivity import local_slopes
+from antinode.study.sensitivity.local import local_slopes
 from antinode.vehicle.hydrodynamics.added_mass import fin_mass, plate, tail_mass, wedge
 from antinode.vehicle.numbers import replaced, value_at
 from cli_run import refused, run

@@ -16,12 +16,13 @@ s = 1/(kGA - N), it is ``(1 + N s)`` times as much, and the force's so much less
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from antinode.arrays import Array
-from antinode.beam.attachments import refuse_feedback
+from antinode.beam.attachments import Joint, refuse_feedback
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.limits import out_of_range_is_an_error
@@ -34,6 +35,7 @@ from antinode.riccati.chain import Chain
 from antinode.riccati.damped.chain import Damped
 from antinode.riccati.damped.energies import point_forms, products
 from antinode.riccati.damped.shapes import complex_states
+from antinode.riccati.damped.slopes import Eigenpairs
 from antinode.riccati.laws import Squares
 from antinode.riccati.shapes import split_for
 
@@ -112,6 +114,19 @@ def critical_influence(problem: Beam | HasBeam, critical: CriticalLoad) -> Influ
         If a motion that rests hides the one that diverges.
     """
     beam = problem if isinstance(problem, Beam) else problem.beam()
+    translates = _translates(beam, critical)
+    refinement, before = _FIRST, None
+    while True:
+        chain = without_dashpots(loading(beam, refinement, translates)(critical.load_factor))
+        found = _of_chain(beam, chain, critical.omega2)
+        fine = not np.any(beam.varies(BENDING)) or 2 * len(chain.length) > _MOST_SEGMENTS
+        if fine or (before is not None and _distance(before, found) < _SAME):
+            return found
+        refinement, before = 2 * refinement, found
+
+
+def _translates(beam: Beam, critical: CriticalLoad) -> bool:
+    """Tell whether a free translation rests beside a divergence; refuse what has no derivatives."""
     refuse_feedback(beam.attachments, BENDING, "derivatives of critical loads")
     if critical.load_factor == 0.0:
         raise InputError(
@@ -124,14 +139,65 @@ def critical_influence(problem: Beam | HasBeam, critical: CriticalLoad) -> Influ
             "a free translation rests beside the motion that diverges: its derivatives are not "
             "told; vary the input (--along)"
         )
+    return translates
+
+
+@out_of_range_is_an_error()
+def critical_slopes(
+    beam: Beam, critical: CriticalLoad, sides: Sequence[tuple[Beam, Beam, float] | None]
+) -> Array:
+    """Return the derivatives of a critical factor by any numbers of a beam: exact, as above.
+
+    Parameters
+    ----------
+    beam : Beam
+    critical : CriticalLoad
+        One of `stability` of it.
+    sides : sequence of (Beam, Beam, float) or None
+        By number: the beams a little below and above, and how far these values are apart.
+
+    Returns
+    -------
+    array, shape (numbers,)
+        NaN where there are no sides.
+
+    Raises
+    ------
+    InputError
+        If the critical load is a rotation that diverges at once.
+    ComputationError
+        If a motion that rests hides the one that diverges, or a joint turns.
+    """
+    translates, p = _translates(beam, critical), critical.load_factor
+    if any(isinstance(item, Joint) for item in beam.attachments):
+        raise ComputationError(
+            "joints turn between the parts of the beam: derivatives of critical loads by inputs "
+            "are not told; vary the input (--along)"
+        )
     refinement, before = _FIRST, None
     while True:
-        chain = without_dashpots(loading(beam, refinement, translates)(critical.load_factor))
-        found = _of_chain(beam, chain, critical.omega2)
+
+        def loaded(of: Beam, factor: float, refinement: int = refinement) -> Chain:
+            return without_dashpots(loading(of, refinement, translates)(factor))
+
+        chain = loaded(beam, p)
+        pairs = Eigenpairs(Damped(chain), np.array([np.sqrt(complex(-critical.omega2))]))
+        h = _FACTOR_STEP * p
+        along = pairs.change(loaded(beam, p - h), loaded(beam, p + h)) / (2 * h)
+        found = np.full(len(sides), np.nan)
+        for k, side in enumerate(sides):
+            if side is not None:
+                low, high, step = side
+                change = pairs.change(loaded(low, p), loaded(high, p)) / step
+                found[k] = float((-change / along).real[0])
         fine = not np.any(beam.varies(BENDING)) or 2 * len(chain.length) > _MOST_SEGMENTS
-        if fine or (before is not None and _distance(before, found) < _SAME):
+        if fine or (before is not None and np.allclose(before, found, rtol=_NEAR, equal_nan=True)):
             return found
         refinement, before = 2 * refinement, found
+
+
+_FACTOR_STEP = 1e-6
+_NEAR = 1e-6
 
 
 def _distance(a: Influence, b: Influence) -> float:

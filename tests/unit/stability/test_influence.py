@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import antinode as an
+from antinode.stability.influence import critical_slopes
 from cli_run import run
 
 FOLLOWS = an.Ends("clamped", right_follower=1.0)
@@ -144,3 +145,35 @@ axial_force = [1, 1]
     assert only["influence"]["bending_stiffness"] == pytest.approx(1.0, abs=1e-9)
     assert only["influence"]["mass_per_length"] == pytest.approx(0.0, abs=1e-9)
     assert "EI" in run("stability", path, "--influence").out
+
+
+@pytest.mark.parametrize("name", ["flutter", "divergence"])
+def test_by_any_number_of_a_beam_against_differences(name):
+    """The place of a spring, the share that turns, a stiffness: beams a little below and above."""
+    more = CASES[name]
+    problem = beam(**more)
+    k, largest = 0, None
+    critical = an.stability(problem, tolerance=1e-11).critical[k]
+    largest = 1.01 * critical.load_factor
+
+    def at(place=0.4, stiffer=1.0):
+        found = beam(EI=(stiffer, 1.0), spring=0.0, **more)
+        return found.with_attachments(an.Spring(place, translational=3.0))
+
+    def slope(**given):
+        (name, value), h = *given.items(), 1e-4
+        low, high = (factor(at(**{name: value + s * h}), k, largest) for s in (-1, 1))
+        return (high - low) / (2 * h)
+
+    h = 2e-6
+    sides = [
+        (at(place=0.4 - h), at(place=0.4 + h), 2 * h),
+        None,
+        (at(stiffer=1 - h), at(stiffer=1 + h), 2 * h),
+    ]
+    exact = critical_slopes(problem, critical, sides)
+    assert np.isnan(exact[1])
+    assert exact[0] == pytest.approx(slope(place=0.4), rel=1e-5)
+    assert exact[2] == pytest.approx(slope(stiffer=1.0), rel=1e-5)
+    influence = an.critical_influence(problem, critical).bending_stiffness[0]
+    assert exact[2] == pytest.approx(influence * critical.load_factor, rel=1e-6)

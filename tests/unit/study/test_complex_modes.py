@@ -9,7 +9,7 @@ from antinode.study.design.file import Design
 from antinode.study.design.points import points_of
 from antinode.study.identify.identification import prepare
 from antinode.study.sensitivity import sensitivity
-from antinode.study.sensitivity.sensitivity import local_slopes
+from antinode.study.sensitivity.local import local_slopes
 from antinode.vehicle.numbers import replaced, value_at
 from cli_run import run
 from water_elements import case_of

@@ -29,12 +29,13 @@ def margins(cases: Cases, reason: Integers) -> dict[str, Array]:
         except (AntinodeError, ArithmeticError):
             continue
         for kind in ("flutter", "divergence"):
-            first = _first(result, kind)
+            first = first_lost(result, kind)
             if first is not None:
                 found[f"{kind}_factor"][i] = first.load_factor
     return found
 
 
-def _first(result: Stability, kind: str) -> CriticalLoad | None:
+def first_lost(result: Stability, kind: str) -> CriticalLoad | None:
+    """Return the first critical load of a kind at which stability is lost."""
     lost = (each for each in result.critical if each.change == "lost")
     return next((each for each in lost if each.kind == kind), None)

@@ -22,6 +22,7 @@ from antinode.text import nearest, short
 from .file import (
     CASE_OUTPUTS,
     LOAD_OUTPUTS,
+    MARGIN_OUTPUTS,
     MODE_OUTPUTS,
     MOST_CASES,
     OF_BEAMS,
@@ -292,6 +293,13 @@ def _check_families(study: Study) -> None:
                 "not have: add the column, or leave the family out"
             )
     loads = [name for name in study.outputs if name in LOAD_OUTPUTS and name not in OF_BEAMS]
+    answered = not is_beam and study.vehicle_case.model.water_answers
+    if answered and (margins := [name for name in study.outputs if name in MARGIN_OUTPUTS]):
+        raise InputError(
+            f"outputs: {margins[0]} is a factor on axial forces alone, and the water's stiffness "
+            "goes with the speed as they do: take growth_rate_per_s and kind, or follow the speed "
+            "with 'antinode stability --along condition.speed=...'"
+        )
     if is_beam and loads:
         allowed = ", ".join((*MODE_OUTPUTS, *OF_BEAMS))
         raise InputError(f"outputs: {loads[0]} is of vehicles; of a beam there are {allowed}")

@@ -19,27 +19,19 @@ import numpy as np
 
 from antinode.arguments import wanted
 from antinode.arrays import Array
-from antinode.beam.families import FamilyName
-from antinode.beam.file import BeamFile
-from antinode.errors import AntinodeError, ComputationError, InputError
+from antinode.errors import ComputationError, InputError
 from antinode.methods import SensitivityMethods
-from antinode.modes.hertz import hertz
 from antinode.modes.result import null
 from antinode.study.cases.chunks import mode_names
-from antinode.study.cases.values import Cases
-from antinode.study.complex_modes import STEP, Beside, ComplexModes
-from antinode.study.design.file import Study, shear_output
+from antinode.study.design.file import MARGIN_OUTPUTS, Study, shear_output
 from antinode.study.design.points import Points, points_of
-from antinode.study.design.variables import Variable
-from antinode.study.eigenvalues import eigenvalues_of, sufficient_refinement
 from antinode.study.sweep.sweep import sweep
 from antinode.vehicle.case import Case
-from antinode.vehicle.derivatives import EigenvalueDerivatives
-from antinode.vehicle.effects import by_logarithm, effect_of_number, effect_of_radius
-from antinode.vehicle.numbers import value_at
 
-from .beam_slopes import beam_slopes, response_slopes
+from .beam_slopes import response_slopes
 from .indices import Indices, sobol_indices
+from .local import beside_inputs, local_slopes, starts_of
+from .margins import LABELS, margin_slopes
 
 if TYPE_CHECKING:
     import xarray
@@ -132,7 +124,7 @@ class SensitivityResult(SensitivityMethods):
     inputs, units : tuple of str
     modes : tuple of ModeSensitivity
     responses : tuple of NumberSensitivity
-        Of what the response comes to, if the study has one.
+        Of what the response comes to, if the study has one, and of the margins that it keeps.
     samples, cases, failed : int
         Samples of each arrangement; all cases; those of them that failed.
     left_out, warnings : tuple of dict
@@ -294,7 +286,7 @@ def _result(study: Study, points: Points, data: xarray.Dataset, number: int) -> 
         failed=data.attrs["failed"],
         left_out=left_out,
         warnings=(*left_out, *data.attrs["warnings"]),
-        responses=_responses(points, data, number),
+        responses=(*_responses(points, data, number), *_margins(points, data, number)),
         not_modelled=tuple(data.attrs.get("not_modelled", ())),
     )
 
@@ -303,7 +295,7 @@ def _responses(points: Points, data: xarray.Dataset, number: int) -> tuple[Numbe
     """Evaluate what the responses come to."""
     if not points.study.asked:
         return ()
-    slopes, start = response_slopes(points), _starts(points)
+    slopes, start = response_slopes(points), starts_of(points)
     rows = []
     for one in points.study.asked:
         values, error = (np.asarray(data[name]) for name in (one.name, f"{one.name}_error"))
@@ -335,9 +327,33 @@ def _responses(points: Points, data: xarray.Dataset, number: int) -> tuple[Numbe
     return tuple(rows)
 
 
-def _starts(points: Points) -> Array:
-    """Return the inputs at the case itself."""
-    return np.array([np.nan if v.start is None else v.start for v in points.variables])
+def _margins(points: Points, data: xarray.Dataset, number: int) -> Iterator[NumberSensitivity]:
+    """Evaluate the margins of stability that the study keeps."""
+    start = starts_of(points)
+    wanted = any(name in MARGIN_OUTPUTS for name in points.study.outputs)
+    slopes = margin_slopes(points.study, beside_inputs(points) if wanted else [])
+    for name, (nominal, error, slope) in slopes.items():
+        values = np.asarray(data[name])
+        known, both = np.isfinite(values), values[: 2 * number]
+        both = both[np.isfinite(both)]
+        if len(both) < 2:
+            continue
+        low, high = np.quantile(both, [0.025, 0.975])
+        yield NumberSensitivity(
+            name,
+            LABELS[name],
+            MARGIN_OUTPUTS[name][0],
+            nominal=nominal,
+            mean=float(both.mean()),
+            sd=float(both.std(ddof=1)),
+            band=(float(low), float(high)),
+            error=error,
+            indices=sobol_indices(values, len(points.variables)),
+            slope=slope,
+            elasticity=slope * start / nominal,
+            used=int(np.count_nonzero(known.reshape(-1, number).all(axis=0))),
+            without=int(np.count_nonzero(~known)),
+        )
 
 
 def kept_modes(study: Study, hz: Array) -> list[int]:
@@ -404,7 +420,7 @@ def _mode(
     both = hz[: 2 * number]
     both = both[np.isfinite(both)]
     nominal, slope = slopes[name]
-    start = _starts(points)
+    start = starts_of(points)
     low, high = np.quantile(both, [0.025, 0.975])
     return ModeSensitivity(
         name=name,
@@ -424,86 +440,3 @@ def _mode(
 
 def _farthest(effect: Array) -> float:
     return max(effect[np.isfinite(effect)].tolist(), key=abs, default=math.nan)
-
-
-def local_slopes(study: Study, points: Points) -> dict[str, tuple[float, Array]]:
-    """Return frequency [Hz] and its derivatives by the inputs, at the case, of every mode."""
-    if isinstance(study.case, BeamFile):
-        return beam_slopes(points)
-    return _vehicle_slopes(study, study.vehicle_case, points)
-
-
-def _vehicle_slopes(study: Study, case: Case, points: Points) -> dict[str, tuple[float, Array]]:
-    """Return the same of a vehicle.
-
-    The derivatives come from the mode shapes, and from the loads by the chain rule.
-    """
-    wanted: dict[FamilyName, int] = dict.fromkeys(study.solve.families, study.solve.modes)
-    found: dict[str, tuple[float, Array]] = {}
-    try:
-        refinement = sufficient_refinement(case, wanted, 1e-9)
-        (solved,) = eigenvalues_of([case], [wanted], refinement)
-    except AntinodeError:
-        nothing = np.full(len(points.variables), np.nan)
-        return dict.fromkeys(mode_names(study), (np.nan, nothing))
-    for family, number in wanted.items():
-        modes = solved.modes[family]
-        if isinstance(modes, ComplexModes):
-            by_input = modes.frequency_slopes(_beside(points))
-            hz = np.where(modes.s.imag > 0, modes.frequencies_hz, np.nan)
-            for k in range(number):
-                found[f"{family} {k + 1}"] = float(hz[k]), by_input[k]
-            continue
-        omega2 = modes.omega2
-        exact = solved.sensitivity(family)
-        by_input = np.stack([_by_input(case, exact, v) for v in points.variables], axis=1)
-        for k in range(number):
-            with np.errstate(all="ignore"):
-                own = hertz(float(omega2[k]))
-                found[f"{family} {k + 1}"] = own, by_input[k] / (8 * np.pi**2 * own)
-    return found
-
-
-def _beside(points: Points) -> list[Beside | None]:
-    """Return the beams of the case on both sides of each input; None by one without a value."""
-    start = _starts(points)
-    centre = np.where(np.isfinite(start), start, 0.0)
-    found: list[Beside | None] = []
-    for k, variable in enumerate(points.variables):
-        place = variable.place
-        low, high = (-math.inf, math.inf) if place is None else (place.low, place.high)
-        if variable.given.factor:
-            low, high = -math.inf, math.inf
-        width = high - low
-        step = STEP * (abs(centre[k]) or (width / 4 if math.isfinite(width) else 1.0))
-        ends = np.array([max(centre[k] - step, low), min(centre[k] + step, high)])
-        values = np.tile(centre, (2, 1))
-        values[:, k] = ends
-        cases = Cases(points.study, points.variables, values)
-        try:
-            sides = [cases.problem(i).beam() for i in range(2)] if np.isfinite(start[k]) else []
-        except AntinodeError:
-            sides = []
-        found.append(Beside(sides[0], sides[1], float(np.ptp(ends))) if sides else None)
-    return found
-
-
-def _by_input(case: Case, sensitivity: EigenvalueDerivatives, variable: Variable) -> Array:
-    """Return d(omega^2) of every mode of a family by an input."""
-    try:
-        return _slope(case, sensitivity, variable)
-    except AntinodeError:
-        return np.full(len(sensitivity.modes.omega2), np.nan)
-
-
-def _slope(case: Case, sensitivity: EigenvalueDerivatives, variable: Variable) -> Array:
-    if variable.weights is not None:  # of a factor on a column, which is 1 here
-        if variable.keys[-1] == "radius":
-            return effect_of_radius(case, variable.weights).slope(sensitivity)
-        by_row = by_logarithm(case, variable.keys[2:], sensitivity)
-        return np.asarray(variable.weights @ by_row)
-    value = None if variable.place is None else value_at(case, variable.keys)
-    if variable.place is None or value is None:
-        return np.full(len(sensitivity.modes.omega2), np.nan)
-    slope = effect_of_number(case, variable.place).slope(sensitivity)
-    return slope * value if variable.given.factor else slope

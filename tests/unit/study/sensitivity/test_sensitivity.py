@@ -11,7 +11,8 @@ from antinode.study.cases.values import Cases, case_of
 from antinode.study.design.points import points_of
 from antinode.study.sensitivity.command import read_uncertain
 from antinode.study.sensitivity.indices import sobol_indices
-from antinode.study.sensitivity.sensitivity import local_slopes, sensitivity
+from antinode.study.sensitivity.local import local_slopes
+from antinode.study.sensitivity.sensitivity import sensitivity
 from cli_run import refused, run
 
 
