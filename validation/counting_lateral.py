@@ -1,10 +1,11 @@
 """Count the eigenvalues of random beams with all columns of the lateral law, and compare.
 
-    python -m validation.counting_lateral [beams]
+    python -m validation.counting_lateral [beams] [pedestals]
 
 Shear in either form, rotary inertia, a foundation and added mass on random stepped beams, N past
-buckling included, every pair of ends. Counted are negative pivots of a dynamic stiffness in 60
-digits: the exact stiffness matrices of halved segments, so short that none has a clamped-clamped
+buckling included, every pair of ends; with `pedestals` masses between two springs stand on them:
+their stiffness, and one more above each pole. Counted are negative pivots of a dynamic stiffness in
+60 digits: the exact stiffness matrices of halved segments, so short that none has a clamped-clamped
 eigenvalue of its own, by mpmath's matrix exponential and no code of the package.
 """
 
@@ -15,7 +16,7 @@ import sys
 import mpmath
 import numpy as np
 
-from antinode import Beam, Ends
+from antinode import Beam, Ends, Pedestal
 from antinode.riccati.chain import count_below
 from antinode.riccati.lanes.calls import evaluate
 
@@ -51,6 +52,18 @@ def random_beam(rng: np.random.Generator) -> Beam:
         theory="timoshenko",
         **more,
     )
+
+
+def with_pedestals(beam: Beam, rng: np.random.Generator) -> Beam:
+    """Return the beam with masses between springs where stations can move."""
+    ends = ((beam.ends.left, 0), (beam.ends.right, len(beam.x) - 1))
+    held = {k for end, k in ends if end in ("clamped", "pinned")}
+    for k in range(len(beam.x)):
+        if k not in held and rng.uniform() < 0.5:
+            mass, upper, lower = (10 ** rng.uniform(*e) for e in ((-3, 0.5), (-1, 5), (-1, 5)))
+            lower *= rng.choice([0, 1])
+            beam = beam.with_attachments(Pedestal(float(beam.x[k]), mass, upper, lower))
+    return beam
 
 
 def _matrix(beam: Beam, k: int, omega2: mpmath.mpf) -> mpmath.matrix:
@@ -105,7 +118,7 @@ def reference_count(beam: Beam, omega2: float) -> int:
     """Return the number of eigenvalues below omega^2, by pivots in 60 digits."""
     with mpmath.workdps(DIGITS):
         w = mpmath.mpf(omega2)
-        pieces = []
+        pieces, places = [], [0]
         for k in range(len(beam.x) - 1):
             A = _matrix(beam, k, w)
             wave = 0.0
@@ -117,17 +130,33 @@ def reference_count(beam: Beam, omega2: float) -> int:
             h = mpmath.mpf(float(beam.x[k + 1])) - mpmath.mpf(float(beam.x[k]))
             number = max(1, int(np.ceil(float(h) * wave / 0.8)))
             pieces += [_stiffness(_exponential(A, h / number))] * number
+            places.append(len(pieces))
         size = 2 * (len(pieces) + 1)
         held = set(HELD[beam.ends.left]) | {size - 2 + i for i in HELD[beam.ends.right]}
-        return _negative_pivots(pieces, size, held)
+        springs, poles = {}, 0
+        for item in beam.attachments:
+            assert isinstance(item, Pedestal)
+            node = places[int(np.argmin(np.abs(beam.x - item.x)))]
+            m, k1, k2 = (mpmath.mpf(v) for v in (item.mass, *_stiffnesses(item)))
+            springs[node] = k1 * (k2 - m * w) / (k1 + k2 - m * w)
+            poles += bool(m * w > k1 + k2)
+        return poles + _negative_pivots(pieces, size, held, springs)
 
 
-def _negative_pivots(pieces: list[mpmath.matrix], size: int, held: set[int]) -> int:
+def _stiffnesses(item: Pedestal) -> tuple[float, float]:
+    return item.beam_stiffness, item.ground_stiffness
+
+
+def _negative_pivots(
+    pieces: list[mpmath.matrix], size: int, held: set[int], springs: dict[int, mpmath.mpf]
+) -> int:
     """Count the negative pivots of the assembled band, node after node."""
     count, carried = 0, mpmath.zeros(2)
     for node in range(len(pieces) + 1):
         last = node == len(pieces)
         own = carried + (mpmath.zeros(2) if last else pieces[node][0:2, 0:2])
+        if node in springs:
+            own[0, 0] += springs[node]
         free = [i for i in range(2) if 2 * node + i not in held]
         block = mpmath.matrix(len(free) + 2) if not last else mpmath.matrix(len(free))
         for a, i in enumerate(free):
@@ -157,9 +186,11 @@ def samples(rng: np.random.Generator) -> np.ndarray:
     return np.concatenate([-(10 ** rng.uniform(-2, 4, 2)), 10 ** rng.uniform(-1, 6.5, 5)])
 
 
-def compare(rng: np.random.Generator) -> tuple[int, int]:
+def compare(rng: np.random.Generator, *, pedestals: bool = False) -> tuple[int, int]:
     """Return how many counts of one random beam were compared, and how many differ."""
     beam, omega2 = random_beam(rng), samples(rng)
+    if pedestals:
+        beam = with_pedestals(beam, rng)
     chain = beam.chain("bending")
     exact = np.array([reference_count(beam, w) for w in omega2.tolist()])
     wrong = 0
@@ -168,11 +199,11 @@ def compare(rng: np.random.Generator) -> tuple[int, int]:
     return 2 * len(omega2), wrong
 
 
-def main(beams: int) -> None:
+def main(beams: int, *, pedestals: bool) -> None:
     """Compare random beams, and print how many counts differ."""
     total = wrong = 0
     for seed in range(beams):
-        compared, different = compare(np.random.default_rng([16, seed]))
+        compared, different = compare(np.random.default_rng([16, seed]), pedestals=pedestals)
         total, wrong = total + compared, wrong + different
         if different:
             print(f"beam {seed}: {different} of {compared} counts differ")
@@ -180,4 +211,5 @@ def main(beams: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 1000)
+    numbers = [int(word) for word in sys.argv[1:] if word.isdigit()]
+    main(numbers[0] if numbers else 1000, pedestals="pedestals" in sys.argv)

@@ -6,13 +6,16 @@ import mpmath
 import numpy as np
 import pytest
 from following_beams import _scaled
+from validation.counting_lateral import compare
 
 import antinode as an
 from antinode import Beam, Ends
+from antinode.response.frequency import Model
+from antinode.response.modal_sum import modal_response
 from antinode.riccati.chain import count_below
 from antinode.riccati.lanes.calls import evaluate
 from cli_run import refused, run
-from hp_beam import eigenvalues
+from hp_beam import _breaks, _Mesh, _weighted, eigenvalues
 
 ENDS = ("free", "clamped", "pinned", "sliding")
 BACKENDS = ("numpy", "numba")
@@ -238,3 +241,62 @@ def test_a_file_holds_it_and_gives_it_back(tmp_path):
     spring = FILE + '[[beam.springs]]\nx = 0.5\ntranslational = "inf"\n'
     path.write_text(spring, encoding="utf-8")
     refused(run("beam", path), "held sideways")
+
+
+def driven_elements(beam, eta, omega):
+    """Y at 0.75 for a unit force at 0.25, and a unit acceleration of the ground, by elements."""
+    mesh = _Mesh(beam, "bending", _breaks(beam, "bending", 6, 1.6, 1.8), 11)
+    K, M = np.zeros((mesh.size, mesh.size), complex), np.zeros((mesh.size, mesh.size))
+    Ke, Me = _weighted(mesh.stiffness, mesh.top), _weighted(mesh.mass, mesh.value)
+    for e, dofs in enumerate(mesh.dofs):
+        K[np.ix_(dofs, dofs)] += (1 + 1j * eta) * Ke[e]
+        M[np.ix_(dofs, dofs)] += Me[e]
+    for dofs, k, m in mesh.points:
+        K[np.ix_(dofs, dofs)] += k
+        M[np.ix_(dofs, dofs)] += m
+    nodes = np.concatenate([[0.0], np.cumsum(mesh.h)])
+    left, right = (2 * int(np.argmin(np.abs(nodes - x))) for x in (0.25, 0.75))
+    free = np.setdiff1d(np.arange(mesh.size), mesh.held)
+    one, force = np.zeros(mesh.size), np.zeros(mesh.size)
+    one[0 : 2 * len(nodes) : 2], force[left] = 1.0, 1.0
+    one[[dofs[0] for dofs, _, m in mesh.points if len(dofs) == 1 and m.any()]] = 1.0
+    y = np.zeros((mesh.size, 2), complex)
+    loads = np.stack([force, omega**2 * M @ one], axis=1)
+    y[free] = np.linalg.solve((K - omega**2 * M)[np.ix_(free, free)], loads[free])
+    return (y[right] + [0, 1]) / [1, -(omega**2)]  # a unit acceleration
+
+
+@pytest.mark.parametrize("lower", [0.0, 60.0])
+def test_a_driven_beam_is_that_of_elements(lower):
+    beam = Beam.from_stations(
+        np.linspace(0, 1, 5), np.ones(5), np.ones(5), None, np.zeros(5), ends=Ends("pinned", "free")
+    ).with_attachments(an.Pedestal(0.5, 0.3, 90.0, lower), an.Spring(0.0, rotational=5.0))
+    omega = np.array([3.0, 9.0, 16.0, 17.3, 60.0, np.sqrt((90 + lower) / 0.3)])
+    drives, output = (an.Force(0.25), an.Base()), an.Output(0.75, "displacement")
+    exact = np.array([driven_elements(beam, 0.03, w) for w in omega]).T
+    found = an.frequency_response(
+        beam, omega / (2 * np.pi), drives, output, damping=an.Damping(loss_factor=0.03)
+    )
+    np.testing.assert_allclose(found.values[0], exact, rtol=2e-7)
+
+
+def test_sums_of_modes_carry_the_mass():
+    """Under a force, and under a moving ground, whose inertia moves the mass as well."""
+    beam = Beam.from_stations(
+        np.linspace(0, 1, 5), np.ones(5), np.ones(5), None, np.zeros(5), ends=Ends("pinned", "free")
+    ).with_attachments(an.Pedestal(0.5, 0.3, 90.0, 60.0), an.Spring(0.0, rotational=5.0))
+    omega, drives = np.array([3.0, 9.0, 17.3]), (an.Force(0.25), an.Base())
+    output, damping = an.Output(0.75, "displacement"), an.Damping(loss_factor=1e-6)
+    hz = omega / (2 * np.pi)
+    exact = an.frequency_response(beam, hz, drives, output, damping=damping).values
+    model = Model(beam, drives, (output,), damping, float(hz.max()))
+    np.testing.assert_allclose(
+        modal_response(model, hz, 12, 1e-3).values.real, exact.real, rtol=2e-4
+    )
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_counts_with_all_columns_in_60_digits(seed):
+    compared, wrong = compare(np.random.default_rng([19, seed]), pedestals=True)
+    assert compared == 14
+    assert wrong == 0

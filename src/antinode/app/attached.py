@@ -17,6 +17,7 @@ KINDS = {
     "mass": "point_masses",
     "spring": "springs",
     "support": "springs",
+    "pedestal": "pedestals",
     "joint": "joints",
     "dashpot": "dashpots",
     "axial force": "loads.point_forces",
@@ -53,7 +54,10 @@ def places(state: State) -> list[float]:
     table = state.problem.table if isinstance(state.problem, BeamFile) else None
     if table is None:
         return []
-    attached = (table.point_masses, table.springs, table.joints, table.dashpots)
+    attached = (
+        *(table.point_masses, table.springs, table.pedestals),
+        *(table.joints, table.dashpots),
+    )
     found = [entry.x for kind in attached for entry in kind]
     return found + [force.x for force in (table.loads.point_forces if table.loads else ())]
 
@@ -95,8 +99,10 @@ def _entry(state: State, kind: str) -> tuple[dict[str, Any], str]:
         "spring": ("translational", 10 * EI / L**3),
         "support": ("translational", float("inf")),
         "joint": ("rotational", L / EI / 10),
+        "pedestal": ("beam_stiffness", 30 * EI / L**3),
         "dashpot": ("translational", (EI * beam.mass / L**3) ** 0.5 / 10),
         "axial force": ("force", -EI / L**2),
     }
     key, size = sizes[kind]
-    return {"x": middle, key: float(f"{size:.2g}")}, key
+    more = {"mass": float(f"{beam.mass / 20:.2g}")} if kind == "pedestal" else {}
+    return {"x": middle, **more, key: float(f"{size:.2g}")}, key

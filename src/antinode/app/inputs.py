@@ -177,6 +177,7 @@ def _marks(annotation: Any) -> Iterator[Any]:
 _WORDS = {
     "point_masses": "mass",
     "springs": "spring",
+    "pedestals": "pedestal",
     "joints": "joint",
     "dashpots": "dashpot",
     "point_feedbacks": "feedback",

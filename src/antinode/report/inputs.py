@@ -13,6 +13,7 @@ from antinode.beam.attachments import (
     Attachment,
     Dashpot,
     Joint,
+    Pedestal,
     PointFeedback,
     PointMass,
     Spring,
@@ -259,6 +260,12 @@ _KINDS: tuple[tuple[type, str, tuple[str, ...], tuple[str, ...]], ...] = (
             "coupling [N]",
         ),
         ("translational", "rotational", "axial", "torsional", "coupling"),
+    ),
+    (
+        Pedestal,
+        "Masses between a spring to the beam and one to the ground; they move sideways alone.",
+        ("mass [kg]", "to the beam [N/m]", "to the ground [N/m]"),
+        ("mass", "beam_stiffness", "ground_stiffness"),
     ),
     (
         Joint,

@@ -142,6 +142,8 @@ class Forced:
             if point.mass and point.offset:
                 arm = np.maximum(1.0, (point.offset / units[:, 0]) ** 2)
                 most += point.mass * omega2 * units[:, 0] / units[:, -1] * arm
+            if point.pedestal is not None:
+                most += np.abs(point.pedestal.stiffness(omega2)) / point.pedestal.upper
         return most
 
     def _sides(self, omega: Array) -> tuple[Lanes, Sides]:

@@ -18,7 +18,6 @@ import numpy.typing as npt
 
 from antinode.arguments import ByValue, numbers, within
 from antinode.arrays import Array, Numbers
-from antinode.beam.attachments import refuse_pedestals
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
@@ -107,7 +106,6 @@ class Model:
         self.drives, self.outputs, self.damping = tuple(drives), tuple(outputs), damping
         if not self.drives or not self.outputs:
             raise InputError("a response needs at least one force, or [base], and one output")
-        refuse_pedestals(beam.attachments, "responses")
         check_places(beam, self.drives, self.outputs)
         self.beam = with_stations(beam, stations_of(self.drives, self.outputs))
         driven = {drive.family for drive in self.drives}

@@ -28,7 +28,7 @@ from antinode.modes.result import ModalResult
 from antinode.modes.solve import solve_modes
 from antinode.riccati.chain import Chain, largest_wave_number
 from antinode.riccati.points import Point
-from antinode.riccati.shapes import gauss_rule, integrate_squares, propagate
+from antinode.riccati.shapes import gauss_rule, integrate_squares, moved_masses, propagate
 
 from .damping import Damping
 from .quantities import Base, Drive, Output, family_of
@@ -330,7 +330,13 @@ class _Shown:
             free = replace(point.off_ground, compliance=0.0)
             for row, sign in ((z + one, 0.25), (z - one, -0.25)):
                 total = total + sign * law.point_energies(free, row, False)[0]
+        for node, moved in moved_masses(chain, self.states, self.omega2).items():
+            total = total + self._sprung(node) * moved
         return np.asarray(total)
+
+    def _sprung(self, node: int) -> float:
+        """Return the mass of the pedestal at a node [kg]."""
+        return next(p.pedestal.mass for p in self.chain.points if p.node == node and p.pedestal)
 
     def strain(self, loss: Array) -> Array:
         """Return the strain energy of each mode weighted by loss factors, times two [1/s^2]."""

@@ -259,8 +259,10 @@ class _Sweep:
             self._add(f)
             return
         stiff = moving(point, self.lanes.dashpot)
-        tied = replace(stiff, mass=0.0, inertia=0.0, own_load=0.0, feedback=None)
+        tied = replace(stiff, mass=0.0, inertia=0.0, own_load=0.0, feedback=None, pedestal=None)
         pull = np.eye(law.size)[:, 0] - law.load(tied, self.lanes.omega2)[:, :, 0]
+        if point.pedestal is not None:
+            pull[:, -1] += point.pedestal.passed_on(self.lanes.omega2)
         f += pull[:, :, None] * self.loads.ground / self.units[:, :, None]
         self._pass(self._scaled(law.load(stiff, self.lanes.omega2)), f)
 

@@ -63,16 +63,23 @@ class Pedestal(NamedTuple):
     def stiffness(self, omega2: Any) -> Any:
         """Return K(omega^2) [N/m]; at its pole as large as next to it."""
         above, below = self.parts(omega2)
-        return above / np.where(below == 0, _NEAR_POLE * (self.upper + self.lower), below)
+        return above / self._off_pole(below)
+
+    def passed_on(self, omega2: Any) -> Any:
+        """Return the force on the node for a unit motion of the ground [N/m]."""
+        return self.lower * self.moved(omega2)
 
     def moved(self, omega2: Any) -> Any:
         """Return how far the mass moves where the node moves by one [-]."""
-        below = self.parts(omega2)[1]
-        total = self.upper + self.lower
-        return self.upper / np.where(below == 0, _NEAR_POLE * total, below)
+        return self.upper / self._off_pole(self.parts(omega2)[1])
+
+    def _off_pole(self, below: Any) -> Any:
+        """Return a denominator that is not all but zero: rounding would take more than is moved."""
+        least = _NEAR_POLE * (self.upper + self.lower)
+        return np.where(np.abs(below) < least, least, below)
 
 
-_NEAR_POLE = 1e-16
+_NEAR_POLE = 1e-8
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 _MARKS: dict[str, dict[str, Any]] = {
     "point mass": {"marker": "o", "y": 0.0, "color": PALETTE[1], "ms": 7, "label": "point mass"},
     "spring": {"marker": "", "y": -0.7, "color": PALETTE[2], "ms": 13, "label": "spring"},
+    "pedestal": {"marker": "s", "y": -0.7, "color": PALETTE[1], "ms": 7, "label": "pedestal"},
     "support": {"marker": "^", "y": -0.75, "color": INK, "ms": 7, "label": "support"},
     "joint": {"marker": "D", "y": 0.0, "color": PALETTE[3], "ms": 5, "label": "joint"},
     "dashpot": {"marker": "$\\sqcup$", "y": -0.6, "color": PALETTE[2], "ms": 9, "label": "dashpot"},

@@ -82,6 +82,7 @@ def _items(file: BeamFile, system: System) -> list[dict[str, Any]]:
     for key, entries in (
         ("point_masses", table.point_masses),
         ("springs", table.springs),
+        ("pedestals", table.pedestals),
         ("joints", table.joints),
         ("dashpots", table.dashpots),
         ("point_feedbacks", table.point_feedbacks),
@@ -105,6 +106,7 @@ def _kind(key: str, entry: object) -> str:
     return {
         "point_masses": "mass",
         "springs": "spring",
+        "pedestals": "pedestal",
         "joints": "joint",
         "dashpots": "dashpot",
         "point_feedbacks": "feedback",

@@ -89,6 +89,10 @@ export function beam(element) {
     mass: (x, y) => [svg("circle", { class: "an-massmark", cx: x, cy: y, r: 8 })],
     support: (x, y, half) => [support(x, y + half)],
     spring: (x, y, half) => [svg("path", { class: "an-coil", d: `M${x},${y + half} v4 l6,3 l-12,6 l12,6 l-12,6 l6,3 v4 M${x - 8},${y + half + 32} h16` })],
+    pedestal: (x, y, half) => [
+      svg("path", { class: "an-coil", d: `M${x},${y + half} v2 l4,2 l-8,3 l8,3 l-4,2 v2 M${x},${y + half + 24} v2 l4,2 l-8,3 l8,3 l-4,2 v2 M${x - 8},${y + half + 38} h16` }),
+      svg("rect", { class: "an-massmark", x: x - 6, y: y + half + 14, width: 12, height: 10 }),
+    ],
     joint: (x, y) => [svg("path", { class: "an-jointmark", d: `M${x},${y - 9} l9,9 l-9,9 l-9,-9 z` })],
     dashpot: (x, y, half) => [svg("path", { class: "an-coil", d: `M${x},${y + half} v12 M${x - 6},${y + half + 12} h12 M${x - 9},${y + half + 8} v14 h18 v-14 M${x},${y + half + 22} v8 M${x - 8},${y + half + 30} h16` })],
     feedback: (x, y, half) => [svg("path", { class: "an-coil", d: `M${x - 8},${y - half - 6} a8,8 0 1 1 14,5 M${x + 6},${y - half} l-2,-6 l7,2` })],
@@ -112,7 +116,7 @@ export function beam(element) {
     });
     node.append(svg("rect", { class: "an-grip", x: x - 12, y: y0 - half - 12, width: 24, height: 2 * half + 48 }));
     node.append(...(SHAPES[item.kind] ?? SHAPES.mass)(x, y0, own, item));
-    const below = ["spring", "support", "dashpot"].includes(item.kind);
+    const below = ["spring", "support", "dashpot", "pedestal"].includes(item.kind);
     const size = item.name.length * 5.6;
     const from = Math.max(2, Math.min(x - size / 2, element.clientWidth - size - 2));
     if (below) {

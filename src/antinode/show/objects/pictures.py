@@ -28,7 +28,7 @@ WIDTH = 460.0
 COLOURS = ("#2f86d6", "#d9730d", "#1a9e77", "#c2569b")
 """Of curves."""
 _SIDE = 14.0
-_MARKS = {"point mass": 1, "joint": 3, "spring": 2, "support": 0, "dashpot": 2}
+_MARKS = {"point mass": 1, "joint": 3, "spring": 2, "support": 0, "dashpot": 2, "pedestal": 1}
 
 
 class Picture:

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from antinode.arrays import Array
-from antinode.beam.attachments import Joint, PointMass, Spring
+from antinode.beam.attachments import Joint, Pedestal, PointMass, Spring
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING
 from antinode.beam.file import BeamFile
@@ -205,6 +205,9 @@ def _scalings(file: BeamFile) -> Iterator[tuple[str, Scaled]]:
         yield "point masses", _heavier_points
     if any(isinstance(item, Spring) and _finite(item) for item in beam.attachments):
         yield "stiffness of springs", _stiffer_springs
+    if Pedestal in kinds:
+        yield "masses of pedestals", _heavier_pedestals
+        yield "their springs", _stiffer_pedestals
     if Joint in kinds:
         yield "compliance of joints", _softer_joints
     if not beam.is_unloaded:
@@ -247,6 +250,15 @@ def _heavier_points(file: BeamFile, s: float) -> Beam:
 def _stiffer_springs(file: BeamFile, s: float) -> Beam:
     names = ("translational", "rotational", "axial")
     return _with_table(file, springs=tuple(_scaled(k, s, *names) for k in file.table.springs))
+
+
+def _heavier_pedestals(file: BeamFile, s: float) -> Beam:
+    return _with_table(file, pedestals=tuple(_scaled(p, s, "mass") for p in file.table.pedestals))
+
+
+def _stiffer_pedestals(file: BeamFile, s: float) -> Beam:
+    names = "beam_stiffness", "ground_stiffness"
+    return _with_table(file, pedestals=tuple(_scaled(p, s, *names) for p in file.table.pedestals))
 
 
 def _softer_joints(file: BeamFile, s: float) -> Beam:
