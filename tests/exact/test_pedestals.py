@@ -1,6 +1,7 @@
 """A mass between two springs: closed forms, elements that carry it as an unknown, 60 digits."""
 
 import json
+from dataclasses import replace
 
 import mpmath
 import numpy as np
@@ -10,6 +11,7 @@ from validation.counting_lateral import compare
 
 import antinode as an
 from antinode import Beam, Ends
+from antinode.proof.prove import prove
 from antinode.response.frequency import Model
 from antinode.response.modal_sum import modal_response
 from antinode.riccati.chain import count_below
@@ -300,3 +302,29 @@ def test_counts_with_all_columns_in_60_digits(seed):
     compared, wrong = compare(np.random.default_rng([19, seed]), pedestals=True)
     assert compared == 14
     assert wrong == 0
+
+
+@pytest.mark.parametrize("tuned", [False, True])
+def test_balls_prove_the_list(tuned):
+    """With a pole among the modes, and with a mode of the beam at the pole."""
+    pytest.importorskip("flint", reason="python-flint is not installed (extra prove)")
+    m = 45.0 / (2 * np.pi) ** 4 if tuned else 0.3
+    items = an.Pedestal(0.5, m, 40.0, 5.0), an.Joint(0.5, 0.1), an.Pedestal(1.0, 0.2, 9.0)
+    beam = uniform("pinned", "free").with_attachments(*items[: 1 if tuned else 3])
+    if tuned:
+        beam = uniform("pinned", "pinned").with_attachments(items[0])
+    result = an.solve_modes(beam, 4, families=["bending"])
+    proof = prove(result)
+    assert proof.verdict == "proven", proof.sentence
+    fewer = replace(result, modes=result.modes[:1] + result.modes[2:])
+    assert prove(fewer).verdict != "proven"
+
+
+def test_how_far_the_masses_move_is_told():
+    beam = uniform("pinned", "pinned").with_attachments(an.Pedestal(0.5, 0.3, 40.0, 5.0))
+    result = an.solve_modes(beam, 3, families=["bending"])
+    Y, omega2 = result.at(0.5)[0, :, 0], np.array([m.omega2 for m in result.modes])
+    np.testing.assert_allclose(result.pedestal_motion, [40 * Y / (45 - 0.3 * omega2)], rtol=1e-9)
+    (told,) = result.to_dict()["pedestals"]
+    assert told["x_m"] == 0.5
+    assert list(told["displacement"].values()) == result.pedestal_motion[0].tolist()

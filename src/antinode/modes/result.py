@@ -13,13 +13,13 @@ import numpy.typing as npt
 
 from antinode.arguments import ByValue, choice, numbers
 from antinode.arrays import Array, Complex
-from antinode.beam.attachments import attachment_dict
+from antinode.beam.attachments import Pedestal, attachment_dict
 from antinode.beam.beam import Beam
 from antinode.beam.families import BENDING, FamilyName
 from antinode.errors import InputError
 from antinode.methods import ModeMethods, ModesMethods
 from antinode.riccati.chain import Chain
-from antinode.riccati.shapes import propagate
+from antinode.riccati.shapes import moved_masses, propagate
 from antinode.text import counted
 from antinode.version import __version__
 
@@ -342,6 +342,18 @@ class ModalResult(ModesMethods, ByValue):
             have = ", ".join(map(repr, self.solutions))
             raise InputError(f"there are no {family} modes in this result; it has {have}")
 
+    @cached_property
+    def pedestal_motion(self) -> Array:
+        """How far the masses of pedestals move in bending modes, shape (pedestals, modes).
+
+        By station, in the unit of the shapes; beside a beam that hardly moves it may be large.
+        """
+        if BENDING not in self.solutions:
+            return np.zeros((0, 0))
+        own = self.solutions[BENDING]
+        moved = moved_masses(own.chain, own.states, own.omega2)
+        return np.array([moved[node] for node in sorted(moved)]).reshape(len(moved), -1)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers for JSON, without the shapes."""
         return {
@@ -349,6 +361,7 @@ class ModalResult(ModesMethods, ByValue):
             "name": self.beam.name,
             "attachments": [attachment_dict(item) for item in self.beam.attachments],
             "modes": [_mode_dict(mode, self.follows) for mode in self.modes],
+            **self._pedestals(),
             "certificate": dict(self.certificate),
             "method": self.method,
             "tolerance": self.tolerance,
@@ -356,6 +369,21 @@ class ModalResult(ModesMethods, ByValue):
             "warnings": list(self.warnings),
             **_theory(self.beam),
             "not_modelled": list(not_modelled(self.beam, self.is_complex)),
+        }
+
+    def _pedestals(self) -> dict[str, Any]:
+        """Return where pedestals stand, and how far their masses move in each bending mode."""
+        moved = self.pedestal_motion
+        if not moved.size or np.iscomplexobj(moved):
+            return {}
+        places = sorted(i.x for i in self.beam.attachments if isinstance(i, Pedestal))
+        rows = zip(places, moved.tolist(), strict=True)
+        names = [mode.name for mode in self.family(BENDING)]
+        return {
+            "pedestals": [
+                {"x_m": x, "displacement": dict(zip(names, map(null, row), strict=True))}
+                for x, row in rows
+            ]
         }
 
     def to_dataset(self) -> xarray.Dataset:

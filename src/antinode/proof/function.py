@@ -4,6 +4,9 @@ Each segment takes the states by ``exp(h A(z))``, each mass, spring, dashpot and
 T(z); A and T are polynomials in z. Values are exact up to the radii of their balls (python-flint,
 Johansson, IEEE Trans. Comput. 66 (2017) 1281). Where ``abs(z) <= r``, with the absolute values
 of all coefficients, and with r for z, the same steps bound every entry, and the function.
+
+A pedestal is a spring ``n(z)/g(z)``, of rank one: g D is the sum of g times D without it, and of n
+times D as where a support holds the node. These are two branches, and have no pole.
 """
 
 from __future__ import annotations
@@ -18,7 +21,7 @@ import numpy as np
 from antinode.extras import import_extra
 from antinode.riccati.chain import state_units
 from antinode.riccati.damped.chain import Damped
-from antinode.riccati.points import Point, moving
+from antinode.riccati.points import Pedestal, Point, moving
 
 Variable = Literal["s", "omega2"]
 Ball = Any
@@ -59,34 +62,60 @@ class Characteristic:
         self._units = [self.flint.arb(float(u)) for u in units]
         self._matrices = self._segments(damped.columns or self.chain.columns)
         self._points = {point.node: self._steps(point) for point in damped.points}
+        self._joints = {p.node: [self._joint(p)] for p in damped.points if p.compliance}
+        self._pedestals = {p.node: self._pedestal(p.pedestal) for p in damped.points if p.pedestal}
 
     def __call__(self, z: Ball) -> Ball:
         """Return D(z)."""
-        frame, factor = self._passed([1, z, z * z], bounding=False)
-        return factor * self._end(frame).det()
+        passed = self._passed([1, z, z * z], bounding=False)
+        return sum((factor * self._end(frame).det() for frame, factor in passed), self.flint.acb(0))
 
     def bound(self, r: Ball) -> Ball:
         """Return what abs(D) does not exceed where abs(z) <= r."""
-        frame, factor = self._passed([1, r, r * r], bounding=True)
-        return (factor * _permanent(self._end(frame))).abs_upper()
+        passed = self._passed([1, r, r * r], bounding=True)
+        parts = (factor * _permanent(self._end(frame)) for frame, factor in passed)
+        return sum(parts, self.flint.acb(0)).abs_upper()
 
-    def _passed(self, powers: list[Ball], *, bounding: bool) -> tuple[Ball, Ball]:
-        """Return the states at the right end, and the factors of what supports cut off."""
-        frame, factor = self._start(), self.flint.acb(1)
+    def _passed(self, powers: list[Ball], *, bounding: bool) -> list[tuple[Ball, Ball]]:
+        """Return states at the right end, and factors of what supports cut off, by branches."""
+        branches = [(self._start(), self.flint.acb(1))]
         known: dict[int, Ball] = {}
         for node in range(len(self.chain.length) + 1):
             for held, T in self._points.get(node, ()):
                 if held:
-                    frame, cut = self._hold(frame, held, bounding)
-                    factor *= cut
+                    cut = [(*self._hold(frame, held, bounding), f) for frame, f in branches]
+                    branches = [(frame, f * own) for frame, own, f in cut]
                 else:
-                    frame = self._sum(T, powers, bounding) * frame
+                    step = self._sum(T, powers, bounding)
+                    branches = [(step * frame, f) for frame, f in branches]
+            if node in self._pedestals:
+                g, n = (self._value(part, powers, bounding) for part in self._pedestals[node])
+                pulled = [(*self._hold(frame, (0,), bounding), f) for frame, f in branches]
+                branches = [(frame, f * g) for frame, f in branches]
+                branches += [(frame, f * own * n) for frame, own, f in pulled]
+            for T in self._joints.get(node, ()):
+                branches = [(T * frame, f) for frame, f in branches]
             if node < len(self.chain.length):
                 kind, polynomial = self._matrices[node]
                 if kind not in known:
                     known[kind] = self._sum(polynomial, powers, bounding).exp()
-                frame = known[kind] * frame
-        return frame, factor
+                branches = [(known[kind] * frame, f) for frame, f in branches]
+        return branches
+
+    def _value(self, part: list[Ball], powers: list[Ball], bounding: bool) -> Ball:
+        """Return a polynomial of numbers, or what it does not exceed."""
+        own = [abs(c) for c in part] if bounding else part
+        return sum((c * power for c, power in zip(own, powers, strict=True)), self.flint.acb(0))
+
+    def _pedestal(self, pedestal: Pedestal) -> tuple[list[Ball], list[Ball]]:
+        """Return g and -n of a pedestal as polynomials, scaled; a support turns the sign of n."""
+        arb = self.flint.arb
+        m, k1, k2 = (arb(v) for v in pedestal)
+        unit = self._units[0] / self._units[-1]
+        below, above = (k1 + k2, -m), (-k1 * k2 * unit, k1 * m * unit)
+        if self.variable == "omega2":
+            return [*below, arb(0)], [*above, arb(0)]
+        return [below[0], arb(0), -below[1]], [above[0], arb(0), -above[1]]
 
     def _sum(self, polynomial: list[Ball], powers: list[Ball], bounding: bool) -> Ball:
         """Return a polynomial whose coefficients are matrices, or their absolute values."""
@@ -129,20 +158,22 @@ class Characteristic:
         return found
 
     def _steps(self, point: Point) -> list[tuple[tuple[int, ...], list[Ball]]]:
-        """Return what is held, or a polynomial T(z), for all steps of a point, left to right."""
-        flint = self.flint
+        """Return what is held, or a polynomial T(z), of the steps of a point before its joint."""
+        point = replace(point, pedestal=None)
         steps: list[tuple[tuple[int, ...], list[Ball]]] = []
         if point.holds:
             steps.append((point.holds, []))
         exact = self._in_balls(point)
         if point.loads or point.damps or point.feeds_back:
             steps.append(((), self._load(exact)))
-        if point.compliance:
-            T = np.eye(self.law.size)
-            unit, given = T.tolist(), self.law.joint(replace(point, compliance=1.0), 1)[0]
-            change = self._matrix((given - T).tolist(), flint.arb(point.compliance))
-            steps.append(((), [self._matrix(unit) + change]))
         return steps
+
+    def _joint(self, point: Point) -> Ball:
+        """Return the matrix of a joint."""
+        T = np.eye(self.law.size)
+        unit, given = T.tolist(), self.law.joint(replace(point, compliance=1.0), 1)[0]
+        change = self._matrix((given - T).tolist(), self.flint.arb(point.compliance))
+        return self._matrix(unit) + change
 
     def _load(self, point: Point) -> list[Ball]:
         """Return the step of masses, springs, dashpots and feedback as a polynomial."""

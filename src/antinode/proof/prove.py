@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from antinode.beam.attachments import refuse_pedestals
 from antinode.beam.beam import Beam
 from antinode.beam.families import FamilyName
 from antinode.beam.limits import out_of_range_is_an_error
@@ -137,7 +136,6 @@ def prove(result: ModalResult) -> Proof:
         raise InputError(
             "a proof needs the errors that method = 'riccati' states; leave out method = 'tmm'"
         )
-    refuse_pedestals(result.beam.attachments, "proofs in balls")
     for family in result.families:
         _check_uniform(result.beam, family)
     regions: dict[str, dict[str, Any]] = {}
