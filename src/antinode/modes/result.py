@@ -348,11 +348,11 @@ class ModalResult(ModesMethods, ByValue):
 
         By station, in the unit of the shapes; beside a beam that hardly moves it may be large.
         """
-        if BENDING not in self.solutions:
-            return np.zeros((0, 0))
-        own = self.solutions[BENDING]
-        moved = moved_masses(own.chain, own.states, own.omega2)
-        return np.array([moved[node] for node in sorted(moved)]).reshape(len(moved), -1)
+        own = self.solutions.get(BENDING)
+        moved = {} if own is None else moved_masses(own.chain, own.states, own.omega2)
+        if not moved:
+            return np.zeros((0, len(self.family(BENDING))))
+        return np.array([moved[node] for node in sorted(moved)])
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers for JSON, without the shapes."""
