@@ -5,7 +5,6 @@ It is chosen by name, openly: nothing that was solved before, and no file on the
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Literal, Protocol
 
 import numpy.typing as npt
@@ -150,12 +149,6 @@ def choose(name: BackendName = "auto") -> Backend:
         from antinode.riccati import readable
 
         return readable
-    return _compiled()
-
-
-@cache
-def _compiled() -> Backend:
-    """Return what numba compiled, loaded once."""
     from antinode.riccati.lanes import calls
     from antinode.riccati.lanes.library import LibraryError, library
 
