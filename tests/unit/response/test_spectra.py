@@ -60,3 +60,12 @@ def test_what_no_spectrum_is(frequency, level, words):
 def test_it_must_cover_the_band():
     with pytest.raises(InputError, match="extend the table"):
         Spectrum([10.0, 100.0], [1.0, 1.0]).check_covers(5, 100)
+
+
+def test_slopes_may_carry_their_unit(tmp_path):
+    table = {"frequency": [1, 2, 4], "level": 1.0, "slope": ["3 dB/oct", -3]}
+    told, plain = (
+        spectrum_from(table | {"slope": slope}, "N^2/Hz", tmp_path, "psd")
+        for slope in (["3 dB/oct", "-3 dB/octave"], [3, -3])
+    )
+    np.testing.assert_array_equal(told.level, plain.level)
