@@ -217,7 +217,7 @@ class RandomTable(Frozen):
 class ShockTable(Frozen):
     """Of the shock response spectra: `[shock]`."""
 
-    q: Annotated[Number, Field(ge=0.5)] = Field(10.0, description="amplification, 1/(2 zeta)")
+    q: Annotated[Number, Field(ge=0.501)] = Field(10.0, description="amplification, 1/(2 zeta)")
 
 
 class ResponseFile(Frozen):

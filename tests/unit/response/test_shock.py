@@ -65,3 +65,10 @@ def test_an_oscillator_that_is_a_mode():
     )  # fmt: skip
     middle = (result.srs[:, 0] + result.srs[:, 2]) / 2
     np.testing.assert_allclose(result.srs[:, 1], middle, rtol=1e-5)
+
+
+def test_an_oscillator_that_does_not_swing_is_refused():
+    with pytest.raises(InputError, match=r"shock\.q is 0\.5; it must be at least 0\.501"):
+        shocked(0.01, shock={"q": 0.5}, modes=4)
+    heavy = shocked(0.01, shock={"q": 0.501}, modes=4)
+    assert np.all(np.isfinite(heavy.srs))
