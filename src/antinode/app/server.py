@@ -109,13 +109,12 @@ def add_page(state: State) -> None:
     from nicegui import app, ui
     from starlette.requests import Request
 
+    from .page import Page  # before the first visit: the kernel is loaded in a thread meanwhile
     from .uploads import ADDRESS, route
 
     app.add_route(ADDRESS, route(), methods=["POST"])
 
     async def index(request: Request) -> None:
-        from .page import Page
-
         # beside the event loop: a link may hold a whole file
         Page(*await asyncio.to_thread(opened, state, dict(request.query_params)))
 
